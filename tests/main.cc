@@ -13,7 +13,7 @@ namespace {
 
 using dealii::Utilities::MPI::this_mpi_process;
 
-/// What fails on a rank that prints nothing else.
+/// This class prints the failures of a rank that prints nothing else.
 class Failures : public ::testing::EmptyTestEventListener
 {
   void OnTestStart(const ::testing::TestInfo &test) override

@@ -22,18 +22,14 @@ import argparse
 import collections
 import csv
 import json
-import os
 import pathlib
 import re
 import statistics
-import subprocess
 import sys
 import tempfile
-import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from runs import ROOT, RunError, run
 
-# entries: of the parameter file; columns: of a summary and what the process took
 Case = collections.namedtuple("Case", "name scene entries ranks", defaults=[1])
 
 # what a rank sends in a stage, as count_messages.c has it
@@ -43,12 +39,8 @@ TORN = ["Task=state", "Accuracy/Estimate=none"]
 STAGES = ["setup", "assembly", "factorization", "soft_modes", "solve", "gradient", "output"]
 
 
-class RunError(Exception):
-    """One line that says which run failed."""
-
-
 def cubes(n, *entries):
-    """Both bodies of the paper's scene with n cells per edge."""
+    """Return entries of both bodies of the paper's scene with n cells per edge."""
     return [f"Body {body}/Box cells={n}, {n}, {n}" for body in ("punch", "foundation")] + [
         *entries]
 
@@ -115,7 +107,7 @@ def gradient_cases(sizes, quick):
 
 
 def bounds(text, factor):
-    """The entries of all bounds in a parameter file, wider by a factor."""
+    """Return the entries of all bounds in a parameter file, wider by a factor."""
     section, entries = "", []
     for line in text.splitlines():
         words = line.split("=")
@@ -144,78 +136,63 @@ def optimization_cases(_sizes, quick):
     return cases
 
 
-def state_seconds(summary):
-    return sum(summary["times"].get(stage, 0.)
-               for stage in ("assembly", "factorization", "soft_modes", "solve"))
+def columns_of(name, summary):
+    """Return the columns of a benchmark of its own."""
+    state, times = summary.get("state") or {}, summary["times"]
+    if name == "hard":
+        return {"linear_f_mults": state["linear_f_mults"], "f_mults": state["f_mults"],
+                "certificate": max(state["certificate"].values())}
+    if name == "ranks":
+        f_mults = summary["work"]["f_mults"]
+        return {"f_mults": f_mults,
+                **{f"{count}_per_f_mult": round(value / f_mults, 1)
+                   for count, value in summary["sent"].get("solve", NOTHING_SENT).items()},
+                **{f"MB_{stage}": round(value)
+                   for stage, value in summary["memory"]["stages"].items()}}
+    if name == "gradient":
+        seconds = sum(times[stage] for stage in
+                      ("assembly", "factorization", "soft_modes", "solve"))
+        return {"cold_states": round(times["gradient"] / seconds, 3),
+                "f_mults": summary["gradient"]["f_mults"]}
+    if name == "optimization":
+        end = summary["optimization"]
+        return {"evaluations": end["evaluations"], "iterations": end["iterations"],
+                "f_mults": summary["work"]["f_mults"], "objective": end["objective_final"],
+                "stopped": end["stop_reason"]}
+    return {}
 
-
-COLUMNS = {
-    "whole": lambda s: {},
-    "hard": lambda s: {"linear_f_mults": s["state"].get("linear_f_mults"),
-                       "f_mults": s["state"].get("f_mults"),
-                       "certificate": max(s["state"]["certificate"].values())},
-    "ranks": lambda s: {"f_mults": s["work"]["f_mults"],
-                        **{f"{count}_per_f_mult": round(value / s["work"]["f_mults"], 1)
-                           for count, value in s["sent"].get("solve", NOTHING_SENT).items()},
-                        **{f"MB_{stage}": round(value) for stage, value in
-                           s.get("memory", {}).get("stages", {}).items()}},
-    "gradient": lambda s: {"cold_states": round(s["times"]["gradient"] / state_seconds(s), 3),
-                           "f_mults": s["gradient"]["f_mults"]},
-    "optimization": lambda s: {"evaluations": s["optimization"]["evaluations"],
-                               "iterations": s["optimization"]["iterations"],
-                               "f_mults": s["work"]["f_mults"],
-                               "objective": s["optimization"]["objective_final"],
-                               "stopped": s["optimization"]["stop_reason"]}}
 
 CASES = {"whole": whole_cases, "hard": hard_cases, "ranks": ranks_cases,
          "gradient": gradient_cases, "optimization": optimization_cases}
 
 
-def environment():
-    lines = (ROOT / "contrib/lib/run.env").read_text().splitlines()
-    return {**os.environ, **dict(line.split("=", 1) for line in lines if "=" in line)}
-
-
-def run(program, case, counter=None):
-    """Its summary with seconds, CPU seconds, the largest memory of the process and, by the
-    library @p counter, what ranks send in it."""
+def summary_of(program, case, counter):
+    """Return the summary of a run with seconds, CPU seconds, the largest memory of a process
+    and, by the library counter, what ranks send in it."""
     with tempfile.TemporaryDirectory() as directory:
         sent = pathlib.Path(directory) / "messages.json"
-        command = [str(program), str(ROOT / case.scene), "--output", directory]
-        for entry in case.entries:
-            command += ["--set", entry]
-        if case.ranks > 1:
-            counting = ["-x", f"LD_PRELOAD={counter}", "-x", f"SNUG_MESSAGES={sent}"]
-            command = ["mpirun", "-np", str(case.ranks), *(counting if counter else []), *command]
-        start = time.monotonic()
-        with subprocess.Popen(command, env=environment(), text=True,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
-            said = process.stderr.read().strip()
-            _, status, used = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
-        seconds = time.monotonic() - start
-        # of a search that ends without meeting a tolerance as well
-        if process.returncode not in (0, 3) or not (pathlib.Path(directory) / "summary.json").exists():
-            raise RunError(f"{case.name}, {program}: status {process.returncode}: "
-                           f"{(said.splitlines() or [''])[0]}")
-        summary = json.loads((pathlib.Path(directory) / "summary.json").read_text())
-        summary["sent"] = json.loads(sent.read_text()) if sent.exists() else {}
-    summary.update(seconds=seconds, cpu=used.ru_utime + used.ru_stime, MB=used.ru_maxrss / 1024)
-    return summary
+        counting = ["-x", f"LD_PRELOAD={counter}", "-x", f"SNUG_MESSAGES={sent}"]
+        # a search that ends without meeting a tolerance counts as well
+        done = run(case.scene, case.entries, case.ranks, program=program, accepted=(0, 3),
+                   launcher=counting if counter else (), timeout=36000)
+        if not done.result:
+            raise RunError(f"{case.name}, {program}: status {done.status}: {done.message}")
+        return {**done.result.summary, "seconds": done.seconds, "cpu": done.cpu,
+                "MB": done.megabytes,
+                "sent": json.loads(sent.read_text()) if sent.exists() else {}}
 
 
-def row_of(program, case, summaries, columns):
-    """Medians of seconds; all else is the same in every repeat."""
+def row_of(program, case, summaries, name):
+    """Return medians of seconds; all else is the same in every repeat."""
+    def median(value, digits=None):
+        return round(statistics.median(map(value, summaries)), digits)
     last = summaries[-1]
-    row = {"program": program, "case": case.name, "ranks": case.ranks,
-           "unknowns": last["mesh"]["dofs"], "subdomains": last["mesh"]["subdomains"],
-           "seconds": round(statistics.median(s["seconds"] for s in summaries), 3),
-           "cpu": round(statistics.median(s["cpu"] for s in summaries), 3),
-           "MB": round(statistics.median(s["MB"] for s in summaries))}
-    for stage in STAGES:
-        row[stage] = round(statistics.median(s["times"].get(stage, 0.) for s in summaries), 3)
-    row.update(columns(last))
-    return row
+    return {"program": program, "case": case.name, "ranks": case.ranks,
+            "unknowns": last["mesh"]["dofs"], "subdomains": last["mesh"]["subdomains"],
+            "seconds": median(lambda s: s["seconds"], 3), "cpu": median(lambda s: s["cpu"], 3),
+            "MB": median(lambda s: s["MB"]),
+            **{stage: median(lambda s, stage=stage: s["times"].get(stage, 0.), 3)
+               for stage in STAGES}, **columns_of(name, last)}
 
 
 def main():
@@ -238,9 +215,10 @@ def main():
             for program in programs:
                 known = [entry for entry in case.entries if program == options.snug
                          or not options.unknown or not entry.startswith(options.unknown)]
-                summaries[program].append(run(program, case._replace(entries=known), counter))
+                summaries[program].append(summary_of(
+                    program, case._replace(entries=known), counter))
         for program in programs:
-            row = row_of(program, case, summaries[program], COLUMNS[options.name])
+            row = row_of(program, case, summaries[program], options.name)
             if writer is None:
                 writer = csv.DictWriter(sys.stdout, row.keys(), extrasaction="ignore",
                                         restval="", lineterminator="\n")

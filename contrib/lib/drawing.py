@@ -12,7 +12,7 @@ COLOURS = "viridis"
 
 
 def titles(states):
-    """One title per state; a single state needs none."""
+    """Return one title per state; a single state needs none."""
     if len(states) == 1:
         return [""]
     return [f"before (iteration {states[0][0]:g})",
@@ -20,7 +20,7 @@ def titles(states):
 
 
 def panels(aspects, columns):
-    """A figure and its axes: one row per aspect (height over width of what is
+    """Return a figure and its axes: one row per aspect (height over width of what is
     drawn), so many columns; the panels of a row share their coordinates. A
     single row of wide panels is drawn as a column of them."""
     stacked = len(aspects) == 1 and aspects[0] < 0.4

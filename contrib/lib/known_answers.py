@@ -1,19 +1,19 @@
 """What contrib/gallery measures in its scenes, and the known answers.
 
-A measure takes the result of a scene and that of the scene it is compared with,
-if there is one, and returns quantities as (name, value, known answer)."""
+A measure takes the Result of a scene and that of the scene it is compared with, if there is
+one, and returns quantities as (name, value, known answer)."""
 
 import copy
 import math
 
 
 def moduli(*bodies):
-    """Hertz' modulus E* of (E, nu) pairs."""
+    """Return Hertz' modulus E* of (E, nu) pairs."""
     return 1 / sum((1 - nu**2) / E for E, nu in bodies)
 
 
 def hertz_line(result, load, radius, modulus):
-    """Half-width and peak pressure of cylinders under a load per length."""
+    """Return peak pressure and half width of cylinders under a load per length."""
     a = math.sqrt(4 * load * radius / (math.pi * modulus))
     p0 = 2 * load / (math.pi * a)
     return [("p0", max(result.pressures()), p0),
@@ -21,50 +21,39 @@ def hertz_line(result, load, radius, modulus):
 
 
 def hertz_point(result, load, radius, modulus, r):
-    """Contact radius and peak pressure of spheres under a load."""
+    """Return peak pressure and contact radius of spheres under a load."""
     a = (3 * load * radius / (4 * modulus))**(1 / 3)
     p0 = 3 * load / (2 * math.pi * a**2)
     return [("p0", max(result.pressures()), p0),
             ("a", result.half_width(a, r), a)]
 
 
-def line_contact(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 4., moduli((1000, .3), (1000, .3)))
+def line(radius, *bodies):
+    """Return the measure of half of two cylinders; bodies: (E, nu)."""
+    return lambda result, _: hertz_line(result, 2 * abs(result.state["contact_force"][1]),
+                                        radius, moduli(*bodies))
 
 
-def two_cylinders(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 1 / (1 / 4 + 1 / 8),
-                      moduli((1000, .3), (4000, .2)))
+EQUAL = (1000, .3), (1000, .3)
 
-
-def two_cylinders_plane_stress(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 1 / (1 / 4 + 1 / 8),
-                      moduli((1000, 0), (4000, 0)))
-
-
-def nafems_roller(result, _):
-    load = 2 * abs(result.state["contact_force"][1])
-    return hertz_line(result, load, 50.,
-                      moduli((210000, .3), (70000, .3)))
+line_contact = line(4., *EQUAL)
+two_cylinders = line(1 / (1 / 4 + 1 / 8), (1000, .3), (4000, .2))
+two_cylinders_plane_stress = line(1 / (1 / 4 + 1 / 8), (1000, 0), (4000, 0))
+nafems_roller = line(50., (210000, .3), (70000, .3))
 
 
 def point_contact(result, _):
     load = 4 * abs(result.state["contact_force"][2])
-    return hertz_point(result, load, 4., moduli((1000, .3), (1000, .3)),
-                       lambda p: math.hypot(p["x"], p["y"]))
+    return hertz_point(result, load, 4., moduli(*EQUAL), lambda p: math.hypot(p["x"], p["y"]))
 
 
 def axisymmetric_point_contact(result, _):
     load = abs(result.state["contact_force"][1])
-    return hertz_point(result, load, 4., moduli((1000, .3), (1000, .3)),
-                       lambda p: p["x"])
+    return hertz_point(result, load, 4., moduli(*EQUAL), lambda p: p["x"])
 
 
 def solid_against_axisymmetric(result, section):
-    """The same cylinders as a section; loads of the full ones."""
+    """The answer is that of the same cylinders as a section, for the load of full ones."""
     load = 4 * abs(result.state["contact_force"][2])
     known = abs(section.state["contact_force"][1])
     a = section.half_width(.23, lambda p: p["x"])
@@ -87,66 +76,55 @@ def gmsh_pin(result, _):
 
 
 def lame_spheres():
-    """Of a ball in a rigid cavity and in a shell, the pressures over the interference; all
+    """Return the pressures over the interference of a ball in a rigid cavity and in a shell; all
     radii are 1, the shell's outer one is 2."""
     E, nu = 1000, .3
     shell = ((1 - 2 * nu) + (1 + nu) * 2**3 / 2) / (E * (2**3 - 1))
     return E / (1 - 2 * nu), 1 / ((1 - 2 * nu) / E + shell)
 
 
-def lame(model):
-    """Pressure of an interference 0.002 at radius 2 between rings from 1 to 2
-    and 2 to 3."""
+def lame_pressure(model):
+    """Return the pressure of an interference 0.002 at radius 2 between rings from 1 to 2 and 2
+    to 3."""
     a, b, c = 1., 2., 3.
     compliance = 0.
     for E, nu, ratio, sign in ((2000, .2, (c * c + b * b) / (c * c - b * b), 1),
-                               (1000, .3, (b * b + a * a) / (b * b - a * a),
-                                -1)):
+                               (1000, .3, (b * b + a * a) / (b * b - a * a), -1)):
         if model == "plane strain":
             E, nu = E / (1 - nu * nu), nu / (1 - nu)
         compliance += (ratio + sign * nu) / E
-    pressure = .002 / (b * compliance)
-    return lambda result, _: [(f"pressure, {which.__name__}",
-                               which(result.pressures()), pressure)
-                              for which in (min, max)]
+    return .002 / (b * compliance)
 
 
-def perfect_fit():
-    """Persson's pin of equal material without clearance: half of the contact
-    angle and the largest pressure times radius over load."""
-    def logarithm(s, r):
-        return math.log((r + s) / (r - s))
+def extremes(result, answer, pair=None):
+    """Return the least and the largest pressure as quantities."""
+    name = "pressure" if pair is None else f"pressure, pair {pair + 1}"
+    return [(f"{name}, {which.__name__}", which(result.pressures(pair)), answer)
+            for which in (min, max)]
 
-    def clearance(b):
-        n, total = 2000, 0.
-        for i in range(n):
-            angle = math.pi * ((i + .5) / n - .5)
-            t, weight = b * math.sin(angle), b * math.cos(angle) * math.pi / n
-            total += weight * logarithm(b * math.cos(angle),
-                                        math.hypot(1, b)) / (1 + t * t)
-        return 2 * (1 - b * b) - total / (math.pi * (1 + b * b))
-    low, high = .5, 1.
-    for _ in range(50):
-        middle = (low + high) / 2
-        low, high = ((middle, high) if clearance(middle) > 0
-                     else (low, middle))
-    r = math.hypot(1, low)
-    return low, (2 * low / (math.pi * r) + logarithm(low, r) /
-                 (2 * math.pi * low**2 * (1 + low**2)))
+
+def lame(model):
+    return lambda result, _: extremes(result, lame_pressure(model))
+
+
+# Persson's pin of equal material without clearance: the tangent of half of the contact angle
+# over 2, where the clearance of his solution is zero, and the largest pressure times radius over
+# load: (2b / (pi r) + log((r + b) / (r - b)) / (2 pi b^2 (1 + b^2))) with r^2 = 1 + b^2.
+PERFECT_FIT, PEAK_OF_FIT = .9135727915594121, .5996286689174073
 
 
 def pin_in_hole(result, _):
     load = 2 * abs(result.state["contact_force"][1])
-    b, pressure = perfect_fit()
-    end = result.half_width(b, lambda p: math.tan(
+    end = result.half_width(PERFECT_FIT, lambda p: math.tan(
         math.atan2(abs(p["x"]), -p["y"]) / 2), first=.8, last=.98)
-    return [("p0", max(result.pressures()), pressure * load),
+    return [("p0", max(result.pressures()), PEAK_OF_FIT * load),
             ("end [degrees]", math.degrees(2 * math.atan(end)),
-             math.degrees(2 * math.atan(b)))]
+             math.degrees(2 * math.atan(PERFECT_FIT)))]
 
 
 def gear_pair(result, _):
-    """Statics, and cylinders with the radii of the involutes at the pitch point."""
+    """The answers are those of statics, and of cylinders with the radii of the involutes at the
+    pitch point."""
     radii, width, moment, alpha = (40., 60.), 10., 1e5, math.radians(20)
     tooth = moment / (radii[0] * math.cos(alpha))
     force = math.hypot(*result.state["contact_force"])
@@ -160,7 +138,7 @@ def gear_pair(result, _):
 
 
 def hip_joint(result, section):
-    """The same joint as a section. Pressures of both are on the cup; left out are nodes on
+    """The answer is that of the same joint as a section. Pressures of both are on the cup; left out are nodes on
     the symmetry planes, where the head covers less of their areas."""
     def polar(point, axis):
         return math.acos(max(-1., -point[axis] / 14.1))
@@ -180,7 +158,7 @@ def hip_joint(result, section):
 
 
 def flat_punch(result, _):
-    """The force within 0.9 of the half width and the pressure in the middle."""
+    """Quantities are the force within 0.9 of the half width and the pressure in the middle."""
     load = abs(result.state["contact_force"][1])
     middle = min(result.points, key=lambda p: abs(p["x"]))
     inner = math.fsum(abs(p["force"]) for p in result.points if p["x"] < .9)
@@ -208,19 +186,15 @@ def incompressible(result, fine):
 
 
 def uniform_pressure(result, _):
-    return [(f"pressure, {which.__name__}", which(result.pressures()), 1.)
-            for which in (min, max)]
+    return extremes(result, 1.)
 
 
 def stack(result, _):
-    return [(f"pressure, {name}, {which.__name__}",
-             which(result.pressures(pair)), 2.)
-            for pair, name in ((0, "upper"), (1, "lower"))
-            for which in (min, max)]
+    return extremes(result, 2., 0) + extremes(result, 2., 1)
 
 
 def floating_block(result, _):
-    """Pressure 1 on the unit top of the block."""
+    """The pressure on the unit top of the block is 1."""
     return [("contact force", abs(result.state["contact_force"][2]), 1.)]
 
 
@@ -232,7 +206,7 @@ def five_bodies(result, _):
 
 
 def crowned_punch(result, _):
-    """The even pressure 1 and the profile of a rigid punch that has it: how far the
+    """The answers are the even pressure 1 and the profile of a rigid punch that has it: how far the
     half plane sinks less at x than in the middle (Johnson, 2.5)."""
     points = sorted(result.points, key=lambda p: p["x"])
 
@@ -246,7 +220,7 @@ def crowned_punch(result, _):
 
 
 def shrunk_hub(result, _):
-    """The force it started with; no peak is below that over the area."""
+    """The force is that of the start, and no peak is below the force over the area."""
     force = result.summary["initial_state"]["responses"]["hold"]
     found = result.state["responses"]
     return [("force", found["hold"], force),
@@ -262,8 +236,7 @@ def bush(result, _):
 
 
 def leaf_spring(result, _):
-    """Masses as they were; the stress of 40 cells along the upper leaf and 2
-    across."""
+    """Masses are as they were; the stress is that of 40 cells along the upper leaf and 2 across."""
     start = result.summary["initial_state"]["responses"]
     found = result.state["responses"]
     return [(name, found[name], start[name])

@@ -1,8 +1,8 @@
-"""Tables of doc/choices.md that contrib/gallery --write remakes."""
+"""The tables of doc/choices.md that contrib/gallery --write renews."""
 
 import runpy
 
-from gallery_runs import ROOT, solve
+from runs import ROOT, solve
 
 METIS = ["Decomposition/Method=METIS", "Decomposition/Subdomains=64"]
 # In the order of the rows.
@@ -12,10 +12,10 @@ WITH_SOFT_MODES = [("hertz-2d", []), ("leaf-spring", []), ("gear-pair", []), ("h
 
 
 def soft_modes():
-    """F-mults without and with soft modes, of a linear solve and from a cold start."""
+    """Yield F-mults without and with soft modes, of a linear solve and from a cold start."""
     for scene, settings in WITH_SOFT_MODES:
-        found = [solve(f"prm/{scene}.prm", "Task=state", "Solver/Report linear reference=true",
-                       *settings, *others).summary
+        found = [solve(f"prm/{scene}.prm", ["Task=state", "Solver/Report linear reference=true",
+                                                *settings, *others]).summary
                  for others in (["Solver/Soft modes=none"], [])]
         modes = found[1]["work"]["soft_modes"]
 
@@ -27,10 +27,10 @@ def soft_modes():
 
 
 def targets():
-    """Targets of 1 % of all scenes of the study."""
+    """Yield targets of 1 % of all scenes of the study."""
     study = runpy.run_path(str(ROOT / "contrib/studies/targets"))
-    for name, scene in study["SCENES"].items():
-        for _, _, _, meshes, unknowns, _, estimated, true in study["rows"](name, scene, [1]):
+    for name in study["SCENES"]:
+        for _, _, _, meshes, unknowns, _, estimated, true in study["rows"](name, [1]):
             yield {"meshes": str(meshes), "unknowns": f"{unknowns:,}",
                    "estimated": f"{estimated:.2f} %", "true": f"{true:.2f} %", "quantities": []}
 

@@ -11,7 +11,7 @@ from states import array_of, cells_of, points_of
 
 
 class Side:
-    """The faces of one slave side at one state."""
+    """This class has the faces of one slave side at one state."""
 
     def __init__(self, grid, pair):
         faces = cells_of(grid)
@@ -28,7 +28,7 @@ class Side:
         return self.pressure[self.nodes].max()
 
     def normal(self):
-        """Coordinate axis closest to the normal, where a 3D face is loaded if it
+        """Return the coordinate axis closest to the normal, where a 3D face is loaded if it
         is: 0, 1 or 2."""
         edge = self.points[self.faces[:, 1]] - self.points[self.faces[:, 0]]
         if self.flat:
@@ -40,12 +40,12 @@ class Side:
         return int(np.argmax(weight @ np.abs(normals)))
 
     def peaks(self):
-        """Where the pressure is largest, or as good as that."""
+        """Return where the pressure is largest, or as good as that."""
         high = self.pressure[self.nodes] >= 0.98 * self.peak()
         return self.points[self.nodes[high]]
 
     def curve(self):
-        """Where to draw the two ends of the faces of a 2D side, and what the
+        """Return where to draw the two ends of the faces of a 2D side, and what the
         place is called: the coordinate along it, or its arc length where the
         side turns away from that by more than 45 degrees."""
         along = 1 - self.normal()
@@ -57,7 +57,7 @@ class Side:
         return self.arc_lengths(), "length along the face (scene's length)"
 
     def arc_lengths(self):
-        """Faces joined where their ends coincide, from a free end if any."""
+        """Return arc lengths of faces that are joined where their ends coincide, from a free end if any."""
         ends = np.round(self.points[self.faces] / np.ptp(
             self.points[self.nodes], axis=0).max(), 9)
         keys = [[tuple(end) for end in face] for face in ends]
@@ -79,14 +79,14 @@ class Side:
 
 
 def slave_sides(states):
-    """For every pair with a slave side of its own, its side at all states."""
+    """Return for every pair with a slave side of its own its side at all states."""
     pairs = np.unique(array_of(states[0][1], "pair"))
     return {int(pair): [Side(grid, pair) for _, grid in states]
             for pair in pairs if pair >= 0}
 
 
 def names_of(directory, sides):
-    """Names of the slave sides; none needed for a single one."""
+    """Return the names of the slave sides; a single one needs none."""
     if len(sides) == 1:
         return [""]
     with open(os.path.join(directory, "summary.json")) as file:
@@ -95,8 +95,8 @@ def names_of(directory, sides):
 
 
 def draw_pressure(directory, states, peak):
-    """Into contact-pressure.png: the first and the last state; colours go up to
-    the largest pressure, or to peak if that is larger."""
+    """Draw the first and the last state into contact-pressure.png; colours go up to the largest
+    pressure, or to peak if that is larger."""
     sides = slave_sides(states)
     if not sides:
         print(f"plot: no contact faces in '{directory}', "
@@ -110,7 +110,7 @@ def draw_pressure(directory, states, peak):
 
 
 def window(row, plane):
-    """Least and largest coordinates in a plane of the faces of a side or, where
+    """Return the least and largest coordinates in a plane of the faces of a side or, where
     less than half of them is loaded, of that part and its surroundings."""
     places = np.concatenate([side.points[side.nodes] for side in row])[:, plane]
     loaded = np.concatenate([side.pressure[side.nodes] for side in row]) > 0.
@@ -151,8 +151,7 @@ def draw_faces(directory, states, sides, names, peak):
 
 
 def show_small_contact(axis, places, loaded):
-    """Where less than a tenth of a side is loaded, that part and its
-    surroundings."""
+    """Show a loaded part of less than a tenth of a side with its surroundings only."""
     width = np.ptp(loaded) if loaded else 0.
     if 0. < width < np.ptp(places) / 10.:
         axis.set_xlim(max(places.min(), min(loaded) - width),

@@ -13,14 +13,16 @@ Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains:
   F-mult   d n/p + s(N) C + messages (LATENCY + bytes/BANDWIDTH) + collectives (...) log2 p
   face     f(N)                     the coarse factorization after a change of the active set
   memory   M0 + M1 n/p + M2 n + m(N)
-f, s and m are of the coarse problem that each rank keeps, powers of N beyond what was measured; of a
-large one that a team of ranks shares they are multiplied by what the largest teams that were measured
-took of what one rank takes, seconds by CORES/members as if cores of their own kept them as busy.
+f, s and m are of the coarse problem that each rank keeps, powers of N beyond what was measured.
+Of a large one that a team of ranks shares they are multiplied by the ratios of the largest teams
+that were measured to one rank, seconds by CORES/members as if each member had its own core.
 """
 
-import csv
+import itertools
 import math
 import sys
+
+from runs import print_head, print_row, read_csv
 
 UNKNOWNS_PER_SUBDOMAIN = 500.  # as Decomposition/Subdomains = auto makes them of cubes
 F_MULTS, FACES = 25, 14        # of a cold state of the paper's scene, which do not grow with n
@@ -29,30 +31,17 @@ LATENCY, BANDWIDTH = 2e-6, 1e10  # of a usual cluster network [s, bytes/s]; assu
 MEMORY = 4000.                 # MB a rank has; assumed
 CORES = 2                      # of the machine that measured: seconds of more ranks say nothing
 MODES = 6                      # of a subdomain
+COARSE = {"factorization": "factorization", "solve": "solve", "MB": "memory"}
 
 
 def team(subdomains, p):
-    """Ranks that share a coarse problem, as Solver/Coarse ranks = 0 chooses them."""
+    """Return the ranks that share a coarse problem, as Solver/Coarse ranks = 0 chooses them."""
     rows = MODES * subdomains
     return 1 if rows <= 20000 or p < 4 else min(p, max(4, int(rows / 6000)))
 
 
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = []
-        for row in csv.DictReader(file):
-            values = {}
-            for key, value in row.items():
-                try:
-                    values[key] = float(value)
-                except ValueError:
-                    values[key] = value
-            rows.append(values)
-        return rows
-
-
 def least_squares(rows, right):
-    """x with the least |A x - b|, by the normal equations of columns of length one."""
+    """Return x with the least |A x - b|, by the normal equations of columns of length one."""
     m = len(rows[0])
     lengths = [math.sqrt(sum(row[j] ** 2 for row in rows)) or 1. for j in range(m)]
     scaled = [[row[j] / lengths[j] for j in range(m)] for row in rows]
@@ -69,7 +58,7 @@ def least_squares(rows, right):
 
 
 class Power:
-    """Through measured points; beyond them with the exponent of the last two."""
+    """This class interpolates measured points; beyond them the last two give the exponent."""
 
     def __init__(self, points):
         self.points = sorted(points)
@@ -87,20 +76,20 @@ class Power:
 
 
 class Model:
-    """What is fitted."""
+    """This class has what is fitted to the tables of ranks and of the coarse problem."""
 
     def __init__(self, ranks, coarse):
         same = [row for row in ranks if row["case"] == "same work"]
         timed = [row for row in same if row["ranks"] <= CORES]
-        one = timed[0]
-        n = one["unknowns"]
+        one, n = timed[0], timed[0]["unknowns"]
         self.setup = least_squares([[n / row["ranks"], n] for row in timed],
                                    [row["setup"] for row in timed])
         self.factors = (one["factorization"] + one["assembly"]) / n
         self.f_mult = one["solve"] / one["f_mults"] / n
-        self.memory = least_squares([[1., n / row["ranks"], n] for row in ranks_of_all(ranks)
-                                     for n in [row["unknowns"]]],
-                                    [row["MB_solve"] for row in ranks_of_all(ranks)])
+        sized = [row for row in ranks if row["case"] in ("same work", "more work")]
+        self.memory = least_squares(
+            [[1., row["unknowns"] / row["ranks"], row["unknowns"]] for row in sized],
+            [row["MB_solve"] for row in sized])
         most = max(same, key=lambda row: row["ranks"])
         share = (most["unknowns"] / most["ranks"]) ** (2. / 3.)
         self.messages = most["messages_per_f_mult"]
@@ -108,85 +97,72 @@ class Model:
         self.collectives = most["collectives_per_f_mult"]
         self.bytes_per_subdomain = most["collective_bytes_per_f_mult"] / most["subdomains"]
         alone = [row for row in coarse if row["ranks"] == 1]
-        self.solve, self.factorize, self.factor_mb = (
-            Power([(row["subdomains"], row[key]) for row in alone])
-            for key in ("solve", "factorization", "MB"))
+        self.coarse = {key: Power([(row["subdomains"], row[key]) for row in alone])
+                       for key in COARSE}
         largest = max(alone, key=lambda row: row["subdomains"])
         self.teams = {int(row["ranks"]): {
-            "solve": row["solve"] / largest["solve"] * min(1., CORES / row["ranks"]),
-            "factorize": row["factorization"] / largest["factorization"]
-                         * min(1., CORES / row["ranks"]),
-            "MB": row["MB"] / largest["MB"]}
+            key: row[key] / largest[key] * (1. if key == "MB" else min(1., CORES / row["ranks"]))
+            for key in COARSE}
             for row in coarse if row["subdomains"] == largest["subdomains"]}
-        self.teams[1] = {"solve": 1., "factorize": 1., "MB": 1.}
 
-    def of_team(self, subdomains, p):
-        """What a rank of a team takes of what one rank alone takes: at most the largest measured."""
+    def of_coarse(self, key, n, p):
+        """Return seconds or megabytes of the coarse problem, of a team at most as large as the
+        largest measured."""
+        subdomains = n / UNKNOWNS_PER_SUBDOMAIN
         members = team(subdomains, p)
-        return self.teams[max(size for size in self.teams if size <= members)]
+        share = self.teams[max(size for size in self.teams if size <= members)]
+        return share[key] * self.coarse[key](subdomains)
 
     def stages(self, n, p):
-        """Seconds of a cold state."""
-        subdomains = n / UNKNOWNS_PER_SUBDOMAIN
-        share = self.of_team(subdomains, p)
-        hops = math.log2(p)
+        """Return the seconds of the stages of a cold state."""
         messages = self.messages * LATENCY + self.bytes_per_share * (n / p) ** (2. / 3.) / BANDWIDTH
-        collectives = hops * (self.collectives * LATENCY
-                              + self.bytes_per_subdomain * subdomains / BANDWIDTH)
+        collectives = math.log2(p) * (self.collectives * LATENCY + self.bytes_per_subdomain
+                                      * n / UNKNOWNS_PER_SUBDOMAIN / BANDWIDTH)
         return {"setup, of the rank's part": self.setup[0] * n / p,
                 "setup, of all on each rank": self.setup[1] * n,
                 "factorizations": self.factors * n / p,
                 "F": F_MULTS * self.f_mult * n / p,
-                "coarse solves": F_MULTS * COARSE_SOLVES * share["solve"]
-                                 * self.solve(subdomains),
-                "coarse factorizations": FACES * share["factorize"] * self.factorize(subdomains),
+                "coarse solves": F_MULTS * COARSE_SOLVES * self.of_coarse("solve", n, p),
+                "coarse factorizations": FACES * self.of_coarse("factorization", n, p),
                 "messages": F_MULTS * messages,
                 "collective calls": F_MULTS * collectives}
 
     def megabytes(self, n, p):
+        """Return the parts of the memory of a rank."""
         return {"of the rank's part": self.memory[0] + self.memory[1] * n / p,
                 "of all on each rank": self.memory[2] * n,
-                "coarse factor": self.factor_mb(n / UNKNOWNS_PER_SUBDOMAIN)
-                                 * self.of_team(n / UNKNOWNS_PER_SUBDOMAIN, p)["MB"]}
-
-
-def ranks_of_all(ranks):
-    return [row for row in ranks if row["case"] in ("same work", "more work")]
+                "coarse factor": self.of_coarse("MB", n, p)}
 
 
 def main(ranks, coarse):
-    model = Model(read(ranks), read(coarse))
+    model = Model(read_csv(ranks), read_csv(coarse))
     print(f"setup {model.setup[0]:.2e} s/unknown of the rank, {model.setup[1]:.2e} of all;",
           f"factorizations {model.factors:.2e}; F-mult {model.f_mult:.2e}")
     print(f"memory {model.memory[0]:.0f} MB + {1e3 * model.memory[1]:.2f} kB/unknown of the rank",
           f"+ {1e3 * model.memory[2]:.3f} of all")
     print(f"per F-mult {model.messages:.1f} messages, {model.collectives:.1f} collective calls of",
           f"{model.bytes_per_subdomain:.0f} bytes per subdomain")
-    print(f"coarse exponents: factorization {model.factorize.exponent:.2f},",
-          f"solve {model.solve.exponent:.2f}, memory {model.factor_mb.exponent:.2f}")
+    print("coarse exponents: " + ", ".join(
+        f"{COARSE[key]} {power.exponent:.2f}" for key, power in model.coarse.items()))
     for members, of in sorted(model.teams.items()):
-        print(f"a team of {members}: factorization {of['factorize']:.2f} of one rank's,",
+        print(f"a team of {members}: factorization {of['factorization']:.2f} of one rank's,",
               f"solve {of['solve']:.2f}, memory {of['MB']:.2f}")
     print()
-    print("| unknowns | ranks | seconds | of these compute shared out | largest of the rest |"
-          " MB per rank | largest of these |")
-    print("|---|---|---|---|---|---|---|")
-    for n in (1e7, 1e8):
-        for p in (64, 256, 1024):
-            stages = model.stages(n, p)
-            shared = ("setup, of the rank's part", "factorizations", "F")
-            total, part = sum(stages.values()), sum(stages[key] for key in shared)
-            worst = max((key for key in stages if key not in shared), key=stages.get)
-            memory = model.megabytes(n, p)
-            most = max(memory, key=memory.get)
-            beyond = " (too much)" if sum(memory.values()) > MEMORY else ""
-            print(f"| {n:.0e} | {p} | {total:.3g} | {100 * part / total:.0f} % |"
-                  f" {worst}: {stages[worst]:.3g} s | {sum(memory.values()):.0f}{beyond} |"
-                  f" {most}: {memory[most]:.0f} |")
-    return 0
+    print_head("unknowns", "ranks", "seconds", "of these compute shared out",
+               "largest of the rest", "MB per rank", "largest of these")
+    for n, p in itertools.product((1e7, 1e8), (64, 256, 1024)):
+        stages, memory = model.stages(n, p), model.megabytes(n, p)
+        shared = ("setup, of the rank's part", "factorizations", "F")
+        total, part = sum(stages.values()), sum(stages[key] for key in shared)
+        worst = max((key for key in stages if key not in shared), key=stages.get)
+        most = max(memory, key=memory.get)
+        beyond = " (too much)" if sum(memory.values()) > MEMORY else ""
+        print_row(f"{n:.0e}", p, f"{total:.3g}", f"{100 * part / total:.0f} %",
+                  f"{worst}: {stages[worst]:.3g} s", f"{sum(memory.values()):.0f}{beyond}",
+                  f"{most}: {memory[most]:.0f}")
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    sys.exit(main(*sys.argv[1:]))
+    main(*sys.argv[1:])

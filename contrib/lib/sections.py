@@ -10,7 +10,7 @@ from states import array_of, cells_of, points_of
 
 
 def bodies_of(grid):
-    """The grid of each body, with one point per node instead of one per cell.
+    """Return the grid of each body, with one point per node instead of one per cell.
     Copies of a node agree in their last bit: they are written from one."""
     points = points_of(grid)
     body = array_of(grid, "body")
@@ -40,8 +40,8 @@ def bodies_of(grid):
 
 
 def cut(grid, axis, place):
-    """The bodies in the plane across axis at the coordinate place; with axis None
-    the bodies themselves, which are flat. Points keep their fields."""
+    """Return the bodies in the plane across axis at the coordinate place; with axis None the
+    bodies themselves, which are flat. Points keep their fields."""
     if axis is None:
         return bodies_of(grid)
     bounds = np.reshape(grid.GetBounds(), (3, 2))
@@ -72,7 +72,7 @@ def cut(grid, axis, place):
 
 
 def polygons_of(dataset):
-    """Corner indices of the two-dimensional cells, in order around them."""
+    """Return the corner indices of the two-dimensional cells, in order around them."""
     polygons = []
     for index in range(dataset.GetNumberOfCells()):
         cell = dataset.GetCell(index)  # valid until the next call
@@ -83,8 +83,7 @@ def polygons_of(dataset):
 
 
 def outline(polygons):
-    """Point pairs of the edges on the boundary of the bodies: those of one
-    polygon only, without the three at every hanging node."""
+    """Return point pairs of the edges on the boundary of the bodies: those of one polygon only, without the three at every hanging node."""
     count = {}
     for polygon in polygons:
         for edge in zip(polygon, polygon[1:] + polygon[:1]):

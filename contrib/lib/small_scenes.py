@@ -1,6 +1,4 @@
-"""The small scenes of tests/scenes with known answers, and what their options must do.
-
-See measures.py."""
+"""The small scenes of tests/scenes with known answers, and what their options must do."""
 
 import base64
 import math
@@ -10,25 +8,31 @@ import zlib
 
 import adapted_scenes
 import known_answers
-from gallery_runs import solve
-from measures import Below, Check, at, error, same
+from measures import Below, Check, at, error, same, values
+from runs import print_head, print_row, solve
 
 
 def guided_modulus(E, nu):
-    """Stress over strain along an axis, without strain across it."""
+    """Return stress over strain along an axis, without strain across it."""
     return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
 
 
-def moment(result, _):
-    """M L^2 / 2EI at the tip and the work M^2 L / EI of a beam of length 5."""
-    stiffness = 1000 * 2 * 1**3 / 12
-    return [("tip", result.state["responses"]["tip"], 25 / (2 * stiffness)),
-            ("work", result.state["compliance"], 5 / stiffness),
-            ("cells", result.summary["mesh"]["cells"], 20)]
+# M L^2 / 2EI at the tip and the work M^2 L / EI of a beam of length 5.
+STIFFNESS = 1000 * 2 * 1**3 / 12
+MOMENT = values({"state.responses.tip": 25 / (2 * STIFFNESS), "state.compliance": 5 / STIFFNESS,
+                 "mesh.cells": 20})
+# Stress 0.3 over an area of 1 m^2; a soft part of 1 m, a stiff one of 2 m.
+MESH_REGIONS = values({"state.contact_force.0": .3e6, "state.responses.end": -.3 * (
+    1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))})
+# Of pressure 5 on the box 2 x 1 x 1.
+RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
+    "potential": -.025, "work": .05, "strain": .025, "space": 2, "weight": 2 * 7.85e-9,
+    "end": .003, "side": .0015, "sunk": -.005, "stress": 5, "force": 10, "area": 2,
+    "norm": 5 * 2**.25, "peak": 5, "variance": Below(1e-12)}.items()})
 
 
 def two_materials(result, _):
-    """Per thickness: int N^2 / 2M over the bar's length, whose height is 10."""
+    """The energy per thickness is int N^2 / 2M over the bar's length, whose height is 10."""
     soft, hard = guided_modulus(10, .4), guided_modulus(210000, .3)
     core, coat = 1.2e-9 * 9810 * 10, 7.85e-9 * 9810 * 10  # stresses by weight
     hanging = (10 * (4 * coat**2 + 2 * coat * core + core**2 / 3) / soft +
@@ -38,68 +42,47 @@ def two_materials(result, _):
             for case, energy in zip(result.summary["load_cases"], (hanging, pulled))]
 
 
-def mesh_regions(result, _):
-    """Stress 0.3 over an area of 1 m^2; a soft part of 1 m, a stiff one of 2 m."""
-    short = .3 * (1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))
-    return [("force", result.state["contact_force"][0], .3e6),
-            ("end", -result.state["responses"]["end"], short)]
-
-
 def named_boundaries(result, _):
     """Pressure 1 shortens the height 0.5."""
-    return [("least p", min(result.pressures()), 1.),
-            ("largest p", max(result.pressures()), 1.),
+    return [*known_answers.extremes(result, 1.),
             ("top", -result.state["responses"]["top"], .5 / 1000)]
 
 
-def mean_pressure(result, pair):
-    points = [p for p in result.points if p["pair"] == pair]
-    return (math.fsum(p["force"] for p in points) /
-            math.fsum(p["area"] for p in points))
-
-
 def lame_cylinder(result, _):
-    """Of radius 1, a rod 0.002 too thick; a tube up to radius 2 on a pin 0.001 too
-    thick; plane strain."""
+    """A rod of radius 1 is 0.002 too thick, and a tube up to radius 2 is on a pin 0.001 too thick,
+    in plane strain."""
     E, nu = 1000, .3
-    return [("p on the rod", mean_pressure(result, 0),
+    return [("p on the rod", result.mean_pressure(0),
              .002 * E / ((1 + nu) * (1 - 2 * nu))),
-            ("p in the tube", mean_pressure(result, 1),
+            ("p in the tube", result.mean_pressure(1),
              .001 * E * 3 / ((1 + nu) * (1 - 2 * nu + 4)))]
 
 
 def lame_sphere(result, _):
-    """A ball 0.002 too large for its rigid cavity, one 0.001 too large for the elastic
-    shell around it."""
+    """A ball is 0.002 too large for its rigid cavity, one is 0.001 too large for the elastic shell
+    around it."""
     cavity, shell = known_answers.lame_spheres()
-    return [("p in the cavity", mean_pressure(result, 0), .002 * cavity),
-            ("p in the shell", mean_pressure(result, 1), .001 * shell)]
+    return [("p in the cavity", result.mean_pressure(0), .002 * cavity),
+            ("p in the shell", result.mean_pressure(1), .001 * shell)]
 
 
 def pair_entries(result, _):
-    """The upper pair has the 4^2 nodes of the coarser face, the lower the 5^2 of the
-    finer one."""
-    return [(f"{which.__name__} p on {name}", which(result.pressures(pair)), 1.)
-            for pair, name in ((0, "the upper"), (1, "the lower"))
-            for which in (min, max)] + [
-        (f"rows of {pair['name']}", pair["rows"], rows)
-        for pair, rows in zip(result.state["pairs"], (16, 25))]
+    """The upper pair has the 4^2 nodes of the coarser face, the lower the 5^2 of the finer
+    one."""
+    return [*known_answers.extremes(result, 1., 0), *known_answers.extremes(result, 1., 1),
+            *((f"rows of {pair['name']}", pair["rows"], rows)
+              for pair, rows in zip(result.state["pairs"], (16, 25)))]
 
 
 def rows_of_disc(floor, lid):
-    """80 nodes on the rim; what comes down on the floor but not from the lid is the
-    weight of the polygon."""
-    def measure(result, _):
-        pairs = result.state["pairs"]
-        return [("rows of the floor", pairs[0]["rows"], floor),
-                ("rows of the lid", pairs[1]["rows"], lid),
-                ("weight", result.state["contact_force"][1],
-                 40 * math.sin(math.pi / 40))]
-    return measure
+    """Return the measure of a disc with 80 nodes on the rim; what comes down on the floor but
+    not from the lid is the weight of the polygon."""
+    return values({"state.pairs.0.rows": floor, "state.pairs.1.rows": lid,
+                   "state.contact_force.1": 40 * math.sin(math.pi / 40)})
 
 
 def six_blocks(result, _):
-    """What presses from above: the traction on top, body forces of the fifth and the
+    """Forces are what presses from above: the traction on top, body forces of the fifth and the
     second block, and the traction on the side of the second."""
     top = 1.097 * 2.2965 * 1.2125
     fourth = top - .047401 * 2.0248 * 1.2925 * .50111
@@ -109,18 +92,8 @@ def six_blocks(result, _):
                                    (lowest, fourth, fourth, fourth, top))]
 
 
-def responses(result, _):
-    """Of pressure 5 on the box 2 x 1 x 1."""
-    answers = {"potential": -.025, "work": .05, "strain": .025, "space": 2,
-               "weight": 2 * 7.85e-9, "end": .003, "side": .0015, "sunk": -.005,
-               "stress": 5, "force": 10, "area": 2, "norm": 5 * 2**.25, "peak": 5,
-               "variance": Below(1e-12)}
-    return [(name, result.state["responses"][name], answer)
-            for name, answer in answers.items()]
-
-
 def even_stress(result, _):
-    """Any mesh finds it."""
+    """Any mesh has an even stress without error."""
     error = result.state["accuracy"]
     return [("estimated error", error["relative"], Below(1e-6)),
             *((f"estimated error of {name}", of_response, Below(1e-6))
@@ -143,7 +116,7 @@ def scaling_law(accuracy):
 
 
 def array(picture, name, width):
-    """The rows of a field of a .vtu file: Float32, blocks packed by zlib."""
+    """Return the rows of a field of a .vtu file: Float32, blocks packed by zlib."""
     text = re.search(rf'{name}[^>]*>\s*([^\s<]+)', picture).group(1)
     head = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
     # lengths: of the list, a block, the last block, and each packed one
@@ -157,8 +130,8 @@ def array(picture, name, width):
 
 
 def shape_gradient(result, _):
-    """Against fields of the design variables, (x, 0) and (0, y - 0.5): each node once,
-    though cells share it."""
+    """Its products with the fields of the design variables, (x, 0) and (0, y - 0.5), are the
+    gradient; each node counts once, though cells share it."""
     of_nodes = dict(zip(array(result.picture, "<Points>\\s*<DataArray", 3),
                         array(result.picture, 'Name="shape_gradient"', 3)))
     values = result.summary["gradient"]["values"]
@@ -168,7 +141,7 @@ def shape_gradient(result, _):
 
 
 def one_method(result, beside):
-    """Only the method that is asked for, which finds what the other does."""
+    """There is only the method that is asked for, which finds what the other does."""
     found, other = (of.summary["gradient"] for of in (result, beside))
     return [("methods", len(found["methods"]), 1),
             (f"{found['method']} against {other['method']}", found["values"],
@@ -176,10 +149,10 @@ def one_method(result, beside):
 
 
 def paired_anew(result, _):
-    """The state of the final design, which pairs at that design."""
+    """The answer is the state of the final design, which pairs at that design."""
     found = result.summary["optimization"]
-    state = solve("tests/scenes/paired-anew.prm", "Task=state",
-                  "Shape/Initial=" + ", ".join(map(repr, found["design"])))
+    state = solve("tests/scenes/paired-anew.prm", [
+        "Task=state", "Shape/Initial=" + ", ".join(map(repr, found["design"]))])
     return [("peak", found["objective_paired_anew"], state.state["responses"]["peak"])]
 
 
@@ -190,7 +163,7 @@ def mirror_images(result, beside):
 
 
 def two_bars(result, _):
-    """Sum of F^2 L / EA is least for areas as the forces: (1 + 2)^2 2 / (1000 2)."""
+    """The sum of F^2 L / EA is least for areas as the forces: (1 + 2)^2 2 / (1000 2)."""
     found = result.summary["optimization"]
     return [("compliance", found["objective_final"], 9e-3),
             ("height of the weak bar", 1 + found["design"][0], 2 / 3),
@@ -198,7 +171,7 @@ def two_bars(result, _):
 
 
 def stops_by(reason):
-    """Earlier than the scene beside, and for that reason."""
+    """Return the measure that a search stops earlier than that beside, and for that reason."""
     def measure(result, beside):
         found = result.summary["optimization"]
         return [(f"stops by {reason}", float(found["stop_reason"] == reason), 1.),
@@ -221,9 +194,9 @@ SEMI_ERROR, OVERALL_ERROR = ((f"gradient.methods.{i}.displacement_difference",)
 ENERGY = ["Gradient/Compare=false", "Optimization/Objective=potential energy"]
 
 CHECKS = [
-    Check("moment", [], moment),
+    Check("moment", [], MOMENT),
     Check("two-materials", [], two_materials),
-    Check("mesh-regions", [], mesh_regions),
+    Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
     Check("lame-cylinder", [], lame_cylinder, 3e-3),
     Check("lame-cylinder", ["Obstacle pin/Shape=cylinder", "Obstacle pin/Formula="],
@@ -237,7 +210,7 @@ CHECKS = [
     Check("six-blocks", [], six_blocks, 1e-8),
     Check("six-blocks", ["Solver/Preconditioner=lumped"], six_blocks, 1e-8),
     Check("paired-anew", [], paired_anew, 1e-7),
-    Check("responses", [], responses, 1e-6),
+    Check("responses", [], RESPONSES, 1e-6),
     Check("responses", ["Accuracy/Estimate=responses"], even_stress, 0.),
     Check("responses", ["Accuracy/Estimate=none"],
           same("state.energy", less=("times.accuracy",)), 1e-12, []),
@@ -300,22 +273,23 @@ CHECKS = [
 
 
 def text_of(value):
-    """A number, or the largest of several."""
+    """Return a number as text, or the largest of several."""
     if isinstance(value, list):
         return f"{max(value, key=abs):.6g} of {len(value)}"
     return ("< " if isinstance(value, Below) else "") + f"{value:.6g}"
 
 
-def run(failures):
-    """Print the table of all checks; what is wrong goes to failures as lines."""
-    print("| scene | with | quantity | found | answer | error |\n" + "|---" * 6 + "|")
+def run():
+    """Print the table of all checks, and return what is wrong as lines."""
+    print_head("scene", "with", "quantity", "found", "answer", "error")
+    failures = []
     for check in CHECKS:
         scene, given = f"tests/scenes/{check.scene}.prm", "; ".join(check.entries)
-        beside = solve(scene, *check.beside) if check.beside is not None else None
-        for name, value, answer in check.measure(solve(scene, *check.entries), beside):
+        beside = solve(scene, check.beside) if check.beside is not None else None
+        for name, value, answer in check.measure(solve(scene, check.entries), beside):
             off = error(value, answer)
-            print(f"| {check.scene} | {given} | {name} | {text_of(value)} "
-                  f"| {text_of(answer)} | {off:.1e} |", flush=True)
+            print_row(check.scene, given, name, text_of(value), text_of(answer), f"{off:.1e}")
             if not off <= check.allowed:
                 failures.append(f"{check.scene}, {given}: {name} is {value} instead of "
                                 f"{text_of(answer)}")
+    return failures

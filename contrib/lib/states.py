@@ -11,7 +11,7 @@ from vtkmodules.vtkIOXML import (vtkXMLPUnstructuredGridReader,
 
 
 class PlotError(Exception):
-    """One line that says what is missing."""
+    """This class is one line that says what is missing."""
 
 
 def existing(path):
@@ -21,8 +21,8 @@ def existing(path):
 
 
 def read_states(directory, name):
-    """The first and the last state of a series as [(time, grid)], one entry
-    if there is only one."""
+    """Return the first and the last state of a series as [(time, grid)], one entry if there is
+    only one."""
     path = existing(os.path.join(directory, name))
     try:
         entries = [(float(entry.get("timestep")), entry.get("file"))
@@ -60,7 +60,7 @@ def array_of(grid, name):
 
 
 def cells_of(grid):
-    """Point indices of the cells; all cells have the same number of them."""
+    """Return the point indices of the cells; all cells have the same number of them."""
     if grid.GetNumberOfCells() == 0:
         return np.zeros((0, 2), dtype=int)
     indices = vtk_to_numpy(grid.GetCells().GetConnectivityArray())

@@ -5,30 +5,39 @@
 namespace snug::accuracy {
 void AccuracyParameters::declare(Entries &entries)
 {
-  entries.add("Estimate", estimate,
-              "What is estimated of the mesh's error, once per state and of the final design.");
   entries.add(
-    "Target", targets, allowed("a list 'response: error, response: error, ...'"),
-    "The mesh is refined until the estimated errors of these responses, names in 'Responses' or "
-    "quantities, are smaller in all load cases: 'peak pressure: 1 %' of its value, or 'tip: 0.02' "
-    "in its units; at least 1e-8 % of its value in both cases. Faces that meet in contact get one "
-    "size. Designs are sought on meshes for 8, "
-    "3 and 1 times the targets, of which the objective must be one, and verified. Empty: the mesh "
-    "as given.");
+    "Estimate", estimate,
+    "The discretization errors that are estimated, for a state and for the final design of "
+    "an optimization.");
+  entries.add(
+    "Target", targets,
+    with_meanings(allowed("a list 'response: error, response: error, ...'"),
+                  {{"peak pressure: 1 %", "relative error, at least 1e-8 %"},
+                   {"tip: 0.02",
+                    "absolute error in the units of the response, at least 1e-8 % of its "
+                    "value"}}),
+    "The maximum estimated errors of responses in all load cases, to which the mesh is refined. "
+    "Names are those of 'Responses' or quantities. An optimization needs a target for its "
+    "objective "
+    "and uses meshes for 8, 3 and 1 times the targets. An empty list means the mesh as given.");
   entries.add("Maximum levels", maximum_levels, between(1., 20.),
-              "Cells are refined up to this level above the coarse cells, with 'Refinements'.");
-  entries.add("Maximum unknowns", maximum_unknowns, positive(), "Finer meshes are not solved.");
-  entries.add(
-    "Marking share", marking_share, between(0.05, 0.95),
-    "Cells with this part of the error are refined at once, or fewer where that is enough.");
+              "The maximum refinement level of a cell above the coarse cells, including "
+              "'Refinements'.");
+  entries.add("Maximum unknowns", maximum_unknowns, positive(),
+              "The maximum number of unknowns of a mesh that is solved.");
+  entries.add("Marking share", marking_share, between(0.05, 0.95),
+              "The part of the estimated error that the cells refined in one step contain (Dörfler "
+              "marking). Fewer cells are refined if that suffices.");
   entries.add(
     "Contact faces", contact_faces, between(2., 100.),
-    "A contact of fewer faces across is refined, whatever its estimated error, for targets "
-    "that read pressures: measures of them and von Mises norms.");
-  entries.add("Verify", verify, allowed("auto, true or false"),
-              "Whether a state with targets is also solved on the mesh with all cells refined, and "
-              "compared. If a target is missed there, that mesh is the next one. auto: where the "
-              "finer mesh has at most 10,000 unknowns.");
+    "The minimum number of faces across a contact. For targets of pressures and von Mises norms a "
+    "contact with fewer faces is refined independently of its estimated error.");
+  entries.add(
+    "Verify", verify,
+    with_meanings(allowed("auto, true or false"),
+                  {{"auto", "true if the finer mesh has at most 10,000 unknowns"}}),
+    "Whether to check the targets on the mesh with all cells refined once. If a target is "
+    "missed, that mesh is refined further.");
 }
 
 void AccuracyParameters::check(const SectionCheck &section) const

@@ -61,7 +61,7 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
         values[contact.places()[i].slave]  = of_rows[i];
         has_row[contact.places()[i].slave] = true;
       }
-  for (const auto &shared : contact.shared_nodes())
+  for (const auto &shared : contact.dependent_multipliers())
     if (!has_row[shared.node])
       for (const auto &[row, share] : shared.rows)
         if (contact.places()[row].pair == pair)
@@ -77,9 +77,9 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
 }
 
 template <int dim>
-ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>             &solver,
-                                      const typename mesh::BodyMesh<dim>::Field &local_positions,
-                                      const std::vector<double>                 &of_rows)
+ContactPressure<dim>::ContactPressure(const state::StateSolver<dim> &solver,
+                                      const mesh::Field<dim>        &local_positions,
+                                      const std::vector<double>     &of_rows)
   : solver(solver)
   , positions(solver.surface().gather(local_positions))
   , shape(solver.mesh().degree())

@@ -68,19 +68,19 @@ std::string Demand::note(const Measured &measured, const bool is_met)
   if (const auto why = too_small(measured); !is_met && !why.empty())
     return why;
   if (is_met && is_noise())
-    return text_of(name, measured) + " has changed its sign from mesh to mesh, and half of itself "
-                                     "on the last: it seems to be "
-                                     "zero; give its target as a number in its units";
+    return text_of(name, measured) + " changes its sign between meshes, and changes by more than "
+                                     "half on the last mesh: it is probably zero; set its target "
+                                     "as a number in its units";
   if (is_met)
     errors.clear();
   // Near the target the mesh after the next may meet it.
   if (measured.error < 2. * allowed(measured) || !is_unbounded(errors) || !is_unbounded(parts()))
     return "";
   return "the error of " + text_of(name, measured) +
-         " has not fallen by a third in three meshes: " +
+         " has not decreased by a third on three meshes: " +
          (target.relative && (measured.error > std::abs(measured.value) || changes_sign(values))
-            ? "it seems to be zero; give its target as a number in its units"
-            : "it seems to be unbounded, as stresses at sharp edges are; take another response, "
-              "or round the edge");
+            ? "it is probably zero; set its target as a number in its units"
+            : "it is probably unbounded, like stresses at sharp edges; use another response, or "
+              "round the edge");
 }
 } // namespace snug::accuracy

@@ -105,7 +105,7 @@ public:
     return z;
   }
 
-  typename mesh::BodyMesh<dim>::Field jump_of(const unsigned int j) const
+  mesh::Field<dim> jump_of(const unsigned int j) const
   {
     return jump(solver, torn, continuous, column[j]);
   }
@@ -136,8 +136,7 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
 
 /// Return a displacement without loads.
 template <int dim>
-LoadedDisplacement<dim> unloaded(const typename mesh::BodyMesh<dim>::Field &displacement,
-                                 const std::size_t                          n_rows)
+LoadedDisplacement<dim> unloaded(const mesh::Field<dim> &displacement, const std::size_t n_rows)
 {
   return {displacement, std::vector<double>(n_rows, 0.), 0.};
 }
@@ -331,10 +330,9 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
                    const sensitivity::Solves                           solves,
                    std::optional<state::ContactState<dim>>            &solved_on)
 {
-  double adjoint_tolerance =
-    std::max(solver.model().solver.relative_tolerance, first_adjoint_tolerance);
-  const auto last   = [&]() -> const auto   &{ return solved_on ? *solved_on : state; };
-  auto       result = attempt(solver, state, responses, solves, adjoint_tolerance);
+  double     adjoint_tolerance = std::max(solver.tolerance(), first_adjoint_tolerance);
+  const auto last              = [&]() -> const auto              &{ return solved_on ? *solved_on : state; };
+  auto       result            = attempt(solver, state, responses, solves, adjoint_tolerance);
   for (unsigned int n = 1; n < most_attempts && !state::is_at_rest(state) &&
                            std::max(result.excess, result.adjoint_excess) > 1.;
        ++n)

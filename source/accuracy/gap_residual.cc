@@ -87,8 +87,8 @@ double GapResidual<dim>::jump(const Point &point, const typename mesh::Surface<d
 }
 
 template <int dim>
-double GapResidual<dim>::excess_work(const std::vector<state::ContactPoint>    &rows,
-                                     const typename mesh::BodyMesh<dim>::Field &v) const
+double GapResidual<dim>::excess_work(const std::vector<state::ContactPoint> &rows,
+                                     const mesh::Field<dim>                 &v) const
 {
   const auto          on_surface = solver.surface().gather(v);
   std::vector<double> pressures;

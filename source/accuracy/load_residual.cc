@@ -114,8 +114,8 @@ LoadResidual<dim>::LoadResidual(const mesh::BodyMesh<dim>  &mesh,
       if (loads.bodies[body].body_force)
         keys.emplace_back(body, no_boundary);
     }
-  // Call everywhere(), because a formula may fail at a position that only one rank has.
-  everywhere(mesh.communicator(), [&]() {
+  // Call throw_collectively(), because a formula may fail at a position that only one rank has.
+  throw_collectively(mesh.communicator(), [&]() {
     add_faces(loads, positions, sampling);
     add_cells(loads, positions, sampling);
   });
@@ -272,8 +272,8 @@ Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
       if (entry.missed > share)
         {
           add_cells(mesh, entry.of_cells, entry.missed, share, result);
-          result.lines.push_back("the mesh does not resolve " + entry.name + ": it misses " +
-                                 percent(entry.missed) + " of their force" +
+          result.lines.push_back("the mesh does not resolve " + entry.name + ": " +
+                                 percent(entry.missed) + " of their force is missing" +
                                  (of_case.name.empty() ? "" : " in load case " + of_case.name));
         }
   const auto volumes = unseen_volumes(mesh);
@@ -282,7 +282,7 @@ Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
       {
         add_cells(mesh, volumes[body].of_cells, volumes[body].missed, unseen_part, result);
         result.lines.push_back("the mesh does not resolve the surface of " + body_names[body] +
-                               ": it misses " + percent(volumes[body].missed) + " of the volume");
+                               ": " + percent(volumes[body].missed) + " of the volume is missing");
       }
   return result;
 }

@@ -69,11 +69,11 @@ public:
   const typename mesh::Surface<dim>::Field &positions() const { return x; }
 
 private:
-  const state::StateSolver<dim>             &solver;
-  const mesh::Surface<dim>                  &surface;
-  const faces::FaceShape<dim>                shape;
-  const typename mesh::BodyMesh<dim>::Field &local;
-  const typename mesh::Surface<dim>::Field   x;
+  const state::StateSolver<dim>           &solver;
+  const mesh::Surface<dim>                &surface;
+  const faces::FaceShape<dim>              shape;
+  const mesh::Field<dim>                  &local;
+  const typename mesh::Surface<dim>::Field x;
 
   /// Return the faces of this rank beside a side.
   std::vector<FaceBeside<dim>> faces_beside(const contact::Side &side) const
@@ -196,7 +196,7 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
         result.push_back({p, of_slave ? at_slave_edge : at_master_edge,
                           "the pressure of '" + pair.name() + "' at a sharp edge of " +
                             (of_slave ? pair.slave_name : pair.master_name) +
-                            " grows without limit as cells get smaller"});
+                            " is unbounded under mesh refinement"});
     }
   return result;
 }

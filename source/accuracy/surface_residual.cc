@@ -73,7 +73,7 @@ class FaceSampler
 {
 public:
   using Face     = typename mesh::BodyMesh<dim>::Face;
-  using Field    = typename mesh::BodyMesh<dim>::Field;
+  using Field    = mesh::Field<dim>;
   using Function = std::function<double(const dealii::Tensor<1, dim> &)>;
 
   /// @p degree is the degree of the polynomial. References must outlive this object. Collective.
@@ -177,8 +177,8 @@ std::vector<double> add_volumes(const mesh::BodyMesh<dim> &mesh, std::vector<Uns
 {
   std::vector<double> volumes(mesh.n_bodies(), 0.);
   FaceSampler<dim>    sampler(mesh, mesh.reference_positions(), mesh::surface_degree);
-  // Call everywhere(), because a formula may fail at a position that only one rank has.
-  everywhere(mesh.communicator(), [&]() {
+  // Call throw_collectively(), because a formula may fail at a position that only one rank has.
+  throw_collectively(mesh.communicator(), [&]() {
     for (const auto &face : mesh.boundary_faces())
       {
         const auto area = sampler.area(face);
@@ -353,8 +353,9 @@ std::vector<RoughPressure> rough_pressures(const state::StateSolver<dim>  &solve
       const PairInState<dim> pair(solver, state, rows, p);
       const auto             given = solver.contact().point_gaps(p, at, held);
       RoughPressure          rough{pairs[p].name(), 0., none, none};
-      everywhere(mesh.communicator(), std::bind(&PairInState<dim>::add, &pair, std::cref(*given),
-                                                std::ref(sampler), std::ref(rough)));
+      throw_collectively(mesh.communicator(),
+                         std::bind(&PairInState<dim>::add, &pair, std::cref(*given),
+                                   std::ref(sampler), std::ref(rough)));
       rough.missed = dealii::Utilities::MPI::sum(rough.missed, mesh.communicator());
       result.push_back(std::move(rough));
     }
@@ -372,7 +373,7 @@ Unresolved unresolved_gaps(const state::StateSolver<dim>  &solver,
       {
         add_cells(solver.mesh(), rough.to_refine, rough.missed, share, result);
         result.lines.push_back("the mesh does not resolve the gap of '" + rough.pair +
-                               "': what is finer than its faces would change the pressure by " +
+                               "': details smaller than its faces would change the pressure by " +
                                percent(rough.missed));
       }
   return result;

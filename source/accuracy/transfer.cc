@@ -3,10 +3,10 @@
 
 namespace snug::accuracy {
 template <int dim>
-qp::WarmStart transferred(const state::StateSolver<dim>             &from,
-                          const state::ContactState<dim>            &state,
-                          const state::StateSolver<dim>             &to,
-                          const typename mesh::BodyMesh<dim>::Field &positions)
+qp::WarmStart transferred(const state::StateSolver<dim>  &from,
+                          const state::ContactState<dim> &state,
+                          const state::StateSolver<dim>  &to,
+                          const mesh::Field<dim>         &positions)
 {
   std::vector<double> pressures;
   for (const auto &point : state.contact)
@@ -40,8 +40,7 @@ qp::WarmStart transferred(const state::StateSolver<dim>             &from,
 #define SNUG_INSTANTIATE(dim)                                          \
   template qp::WarmStart transferred(const state::StateSolver<dim> &,  \
                                      const state::ContactState<dim> &, \
-                                     const state::StateSolver<dim> &,  \
-                                     const typename mesh::BodyMesh<dim>::Field &);
+                                     const state::StateSolver<dim> &, const mesh::Field<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -1,4 +1,5 @@
 #include <snug/advice/cost.h>
+#include <snug/base/values.h>
 #include <snug/elasticity/element.h>
 #include <snug/response/response.h>
 
@@ -39,7 +40,7 @@ constexpr Constants solid = {6e-5, {1.4e-4, 1.2e-3}, 6e-6,    4e-6,   7e-9, 2., 
 const double base_memory = 175.; ///< of a process [MB]
 const double start_up    = 0.4;  ///< of libraries and MPI [s]
 
-/// Of a cold solve; subdomains that are no boxes need twice as many.
+/// Return the F-mults of a cold solve. Subdomains that are no boxes need twice as many.
 double expected_f_mults(const scene::Scene &scene, const Counts &counts)
 {
   double result = 10. + 6. * std::log2(std::max(1., counts.subdomains));
@@ -55,7 +56,7 @@ double expected_f_mults(const scene::Scene &scene, const Counts &counts)
   return result * (0.5 - std::log10(tolerance) / 12.);
 }
 
-/// Of one design, whatever its basis makes of it.
+/// Return the expected number of design variables of a scene.
 double expected_variables(const scene::Scene &scene, const Counts &counts)
 {
   double result = 0.;
@@ -196,15 +197,16 @@ void print(const Cost &cost, const bool stages, std::ostream &out)
   const auto whole = [](const double number) { return std::llround(number); };
   out << "estimate: " << whole(cost.counts.cells) << " cells, "
       << whole(cost.dimension * cost.counts.nodes) << " unknowns, at most "
-      << whole(cost.counts.contact_rows) << " contact rows, " << whole(cost.counts.subdomains)
-      << " subdomains\nestimate: " << whole(cost.memory_total) << " MB";
+      << whole(cost.counts.contact_rows) << " contact constraints, "
+      << whole(cost.counts.subdomains) << " subdomains\nestimate: " << whole(cost.memory_total)
+      << " MB";
   if (cost.ranks > 1)
     out << " on " << cost.ranks << " ranks, " << whole(cost.memory_largest) << " MB on one";
   out << ", " << seconds_text(cost.total);
   if (cost.n_designs > 0)
-    out << (cost.n_designs > 1 ? " for at most " : " for ") << cost.n_designs << " designs of "
-        << seconds_text(cost.design) << ", " << seconds_text(cost.gradient)
-        << " of it the gradient";
+    out << " for " << (cost.n_designs > 1 ? "at most " : "") << counted(cost.n_designs, "design")
+        << ", " << seconds_text(cost.design) << " each, of which the gradient takes "
+        << seconds_text(cost.gradient);
   out << '\n';
   const std::pair<const char *, double> rows[] = {
     {"start", cost.start}, {"setup", cost.setup},       {"factorization", cost.factorization},

@@ -12,7 +12,7 @@
 
 namespace snug::advice {
 namespace {
-/// Of one body.
+/// Counts of one body.
 struct BodyCounts
 {
   double                        cells, nodes, coarse_cells;
@@ -20,7 +20,7 @@ struct BodyCounts
   bool                          has_layers;
 };
 
-/// What 'Refine where' makes of a body: how many cells become of one, on samples.
+/// This class counts, on samples, the cells into which 'Refine where' divides the cells of a body.
 template <int dim>
 class LocalRefinement
 {
@@ -170,8 +170,8 @@ private:
   mutable unsigned int               n_evaluations = 0;
 };
 
-/// Of evenly refined cells exact but for the holes of a body, by Euler's formula; of others the
-/// nodes that are more go with the cells.
+/// Return the number of nodes. By Euler's formula, the number is exact for evenly refined cells of
+/// a body without holes. For other bodies, additional nodes are proportional to the cells.
 template <int dim>
 BodyCounts count_body(const scene::Body &body, const unsigned int degree)
 {

@@ -9,7 +9,7 @@
 
 namespace snug::advice {
 namespace {
-/// Whether the scene asks for what the estimate of the energy says nothing of.
+/// Return whether the scene uses responses for which the estimate of the energy does not hold.
 bool asks_for_more(const scene::Scene &scene)
 {
   std::vector<std::string> asked;

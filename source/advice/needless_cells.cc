@@ -152,7 +152,7 @@ private:
       }
   }
 
-  /// Whether a response or a shape is on the body.
+  /// Return whether a response or a shape is on the body.
   bool is_watched(const unsigned int body) const
   {
     const auto &scene = subject.scene;
@@ -214,8 +214,8 @@ private:
     return result;
   }
 
-  /// Whether no rigid motion escapes its supports: sum over points of r_i . P r_j is regular, P the
-  /// projector on held directions.
+  /// Return whether the supports of the body prevent all rigid motions: the sum of r_i . P r_j over
+  /// points is regular, where P projects on the supported directions.
   bool is_held(const unsigned int body) const
   {
     const unsigned int               n = mesh.idealization().n_rigid_motions();

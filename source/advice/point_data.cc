@@ -5,7 +5,8 @@
 
 namespace snug::advice {
 namespace {
-/// Of the largest of its kind; loads that break a symmetry by a thousandth are seen.
+/// Tolerance relative to the maximum of the data. Loads that break a symmetry by a thousandth are
+/// found.
 constexpr double tolerance = 1e-6;
 
 const unsigned int points_per_boundary = 64;

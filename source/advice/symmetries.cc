@@ -230,8 +230,8 @@ private:
     return result;
   }
 
-  /// Of the whole scene. With @p fold, points that leave the part of the whole that the scene is
-  /// are mirrored back into it.
+  /// Return whether @p map keeps the data at the points of the whole scene. With @p fold, points
+  /// outside the modelled part of the whole are mirrored back into this part.
   bool keeps_points(const Isometry<dim> &map, const bool fold) const
   {
     for (const auto *points : {&data.surface(), &data.inside()})
@@ -269,7 +269,7 @@ private:
     });
   }
 
-  /// Whether each variable moves nodes and their images alike. Collective.
+  /// Return whether each variable moves nodes and their mirror images symmetrically. Collective.
   bool keeps_design(const Isometry<dim> &map) const
   {
     const unsigned int n = subject.shapes.n_variables();
@@ -344,7 +344,8 @@ private:
     return result;
   }
 
-  /// Of the cells that a half-plane from the axis cuts, on average over its angle. Collective.
+  /// Return the number of nodes of the cells that a half-plane from the axis cuts, averaged over
+  /// the angle. Collective.
   double nodes_of_section(const Point &on_axis, const Vector &axis) const
   {
     double around = 0.; // parts of the full turn

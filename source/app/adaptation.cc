@@ -17,30 +17,56 @@
 #include <sstream>
 
 namespace snug::app {
-/// Cells are chosen by what the states before tell, which subdomains change by as much as the
-/// tolerance: the same subdomains on any ranks make the same meshes.
 template <int dim>
-Adaptation<dim>::Adaptation(RunContext         &context,
-                            const scene::Scene &of_user,
-                            const Design       &design,
-                            const RefinedCells &cells)
-  : context(context), scene(of_user), at(design), refined(cells)
+void Adaptation<dim>::start(const Design &design, const RefinedCells &cells)
 {
-  scene.tearing.at_least_ranks = false;
-  const auto &targets          = scene.accuracy.targets;
-  double      tolerance        = accuracy::first_tolerance;
-  // cells that were refined for the targets have errors of their size
-  if (!cells.empty())
-    for (const auto &target : targets)
-      tolerance =
-        std::min(tolerance, accuracy::step_tolerance(accuracy::read_target(target.second).value,
-                                                     false, least()));
-  resolve_data();
-  // in two steps: the first adds to the cells
-  auto mesh = matched_mesh(refined);
-  solved    = stage(std::move(mesh), refined, tolerance);
+  solved.reset();
+  finer_stage.reset();
+  finer.clear();
+  finer_is_enough = true;
+  n_doubtful      = 0;
+  summary         = {};
+  unresolved.clear();
+  at     = design;
+  solved = stage(first_mesh(cells), first_tolerance(cells));
   if (cells.empty())
     solved->problem->check_overlaps();
+  set_demands();
+  solve(*solved, {});
+}
+
+/// Return the mesh of the scene with @p cells refined, and with further cells that the loads, the
+/// surfaces and the contact of the scene need. Collective.
+template <int dim>
+typename Adaptation<dim>::Mesh Adaptation<dim>::first_mesh(const RefinedCells &cells)
+{
+  const bool is_known = cells.empty() && first_cells;
+  refined             = is_known ? *first_cells : cells;
+  if (!is_known)
+    resolve_data();
+  auto mesh = matched_mesh(refined);
+  if (cells.empty())
+    first_cells = refined;
+  return mesh;
+}
+
+/// Cells that were refined for the targets have errors of the size of the targets.
+template <int dim>
+double Adaptation<dim>::first_tolerance(const RefinedCells &cells) const
+{
+  double result = accuracy::first_tolerance;
+  if (!cells.empty())
+    for (const auto &target : scene.accuracy.targets)
+      result = std::min(result, accuracy::step_tolerance(accuracy::read_target(target.second).value,
+                                                         false, least()));
+  return result;
+}
+
+template <int dim>
+void Adaptation<dim>::set_demands()
+{
+  demands.clear();
+  const auto &targets = scene.accuracy.targets;
   for (unsigned int j = 0; j < targets.size(); ++j)
     for (unsigned int c = 0; c < solved->problem->n_load_cases(); ++c)
       demands.push_back(
@@ -48,7 +74,6 @@ Adaptation<dim>::Adaptation(RunContext         &context,
          j, accuracy::read_target(targets[j].second),
          solved->problem->make_response(targets[j].first)->stationary(),
          solved->problem->make_response(targets[j].first)->reads_pressure()});
-  solve(*solved, {});
 }
 
 template <int dim>
@@ -58,48 +83,51 @@ typename Adaptation<dim>::Design Adaptation<dim>::design(const Stage &stage) con
 }
 
 template <int dim>
-scene::Scene Adaptation<dim>::adapted_scene() const
+AdaptedProblem<dim> Adaptation<dim>::release()
 {
-  auto result            = solved->scene;
-  result.state_tolerance = scene.state_tolerance;
+  auto &solver = *solved->problem->solver;
+  solver.set_tolerance(solver.model().solver.relative_tolerance);
+  auto result = std::move(*solved);
+  solved.reset();
   return result;
 }
 
 template <int dim>
-scene::Scene Adaptation<dim>::scene_with(const RefinedCells &cells) const
-{
-  auto       result = scene;
-  const auto given  = std::make_shared<const RefinedCells>(cells);
-  for (auto &body : result.bodies)
-    body.mesh.refined = given;
-  return result;
-}
-
-template <int dim>
-accuracy::Measured Adaptation<dim>::objective()
+accuracy::Measured Adaptation<dim>::objective() const
 {
   const auto combined = solved->problem->combined_objective(solved->states);
   return {combined.value, objective_error(scene, combined.factors, solved->errors)};
 }
 
-/// As many as faces that meet may be levels apart at first, or nearly so. Where the cells of two
-/// bodies do not end together, each pass moves a change of size on by a face, and on the other body
-/// then as well: without a limit to the end of the side.
+/// Maximum number of passes, about the largest difference of levels between faces in contact at
+/// first. Where the cell edges of two bodies do not coincide, each pass moves a change of size on
+/// by a face on both bodies, without a limit to the end of the side.
 constexpr unsigned int most_passes = 8;
 
-/// The mesh of the scene with @p cells refined, and with those added that are coarser than what
-/// they meet. Collective.
+/// Return the forest of the scene in which the cells of @p cells have children. The forest of the
+/// mesh before is refined further if @p cells contain its cells. Collective.
+template <int dim>
+const mesh::Forest<dim> &Adaptation<dim>::forest_with(const RefinedCells &cells)
+{
+  if (!forest || !std::includes(cells.begin(), cells.end(), in_forest.begin(), in_forest.end()))
+    forest = build_forest<dim>(scene, context.communicator());
+  forest->refine(cells);
+  in_forest = cells;
+  return *forest;
+}
+
+/// Return the mesh of the scene with @p cells refined. Cells that are coarser than the cells of the
+/// opposite side of a contact are added to @p cells. Collective.
 template <int dim>
 typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells)
 {
   began = context.seconds();
   const RunContext::Timer timer(context, "setup");
-  for (unsigned int pass = 0;; ++pass)
+  for (unsigned int pass = 0; pass < most_passes; ++pass)
     {
       const auto                  given = cells;
-      const auto                  with  = scene_with(cells);
-      auto                        mesh  = build_mesh<dim>(with, context.communicator());
-      const auto                  pairs = build_model(with, *mesh).pairs;
+      const auto                  mesh  = build_mesh(scene, forest_with(cells), false);
+      const auto                  pairs = build_pairs(scene, *mesh);
       const mesh::Surface<dim>    surface(*mesh, contact::boundaries_of(pairs));
       const faces::FaceShape<dim> shape(mesh->degree());
       for (const auto &joined :
@@ -108,22 +136,20 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells
                                         contact::coarse_faces(surface, shape, joined.pair,
                                                               surface.reference_positions()))),
             cells);
-      if (cells == given || pass == most_passes)
-        {
-          cells = given;
-          return mesh;
-        }
+      if (cells == given)
+        break;
     }
+  return build_mesh(scene, forest_with(cells));
 }
 
+/// Return the problem on a mesh, with a contact search at the design. Collective.
 template <int dim>
-std::unique_ptr<typename Adaptation<dim>::Stage>
-Adaptation<dim>::stage(Mesh mesh, const RefinedCells &cells, const double tolerance)
+std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::stage(Mesh mesh, const double tolerance) const
 {
-  auto result                   = std::make_unique<Stage>(Stage{scene_with(cells)});
-  result->scene.state_tolerance = tolerance;
-  result->problem = std::make_unique<ShapeProblem<dim>>(context, result->scene, std::move(mesh));
-  if (!at.empty())
+  auto result = std::make_unique<Stage>(
+    Stage{std::make_unique<ShapeProblem<dim>>(context, scene, std::move(mesh))});
+  result->problem->solver->set_tolerance(tolerance);
+  if (!at.empty() && at != result->problem->shapes->start())
     result->problem->solver->pair(result->problem->positions(at));
   return result;
 }
@@ -182,10 +208,9 @@ void Adaptation<dim>::estimate(Stage &stage) const
 
 /// Another mesh, solved from the states of the last. Collective.
 template <int dim>
-std::unique_ptr<typename Adaptation<dim>::Stage>
-Adaptation<dim>::solve_next(Mesh mesh, const RefinedCells &cells)
+std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::solve_next(Mesh mesh)
 {
-  auto                       next = stage(std::move(mesh), cells, next_tolerance());
+  auto                       next = stage(std::move(mesh), next_tolerance());
   std::vector<qp::WarmStart> starts;
   for (const auto &state : solved->states)
     starts.push_back(accuracy::transferred(*solved->problem->solver, state, *next->problem->solver,
@@ -231,7 +256,7 @@ double Adaptation<dim>::next_tolerance() const
   return tolerance;
 }
 
-/// That of all states.
+/// Return the maximum tolerance of all states of a stage.
 template <int dim>
 double Adaptation<dim>::tolerance(const Stage &stage)
 {
@@ -285,14 +310,14 @@ std::string Adaptation<dim>::reach(const double factor)
           if (summary.met && !is_rough())
             {
               for (const auto &line : unresolved)
-                context.out() << "warning: " << line << std::endl;
+                context.warn(line);
               return "";
             }
         }
       else if (n_doubtful > 1)
         add_marked_beside(cells);
       if (cells == refined && !is_rough())
-        return missed("allow more 'Maximum levels', or ask for less");
+        return missed("increase 'Maximum levels', or relax 'Target'");
       why = go_on(cells);
       if (!why.empty())
         return missed(why);
@@ -308,9 +333,9 @@ std::string Adaptation<dim>::go_on(RefinedCells &cells)
       auto mesh = matched_mesh(cells);
       if (!fits(*mesh))
         return "the next mesh has " + std::to_string(unknowns(*mesh)) +
-               " unknowns: allow more 'Maximum unknowns', or ask for less";
+               " unknowns: increase 'Maximum unknowns', or relax 'Target'";
       // The mesh that is solved from goes only when the next one is solved.
-      auto next = solve_next(std::move(mesh), cells);
+      auto next = solve_next(std::move(mesh));
       solved    = std::move(next);
       refined   = cells;
       return "";
@@ -318,11 +343,11 @@ std::string Adaptation<dim>::go_on(RefinedCells &cells)
   // The scene is right, as the meshes before were solved.
   catch (const InputError &error)
     {
-      return std::string("the next mesh cannot be solved: ") + error.what();
+      return std::string("the analysis on the next mesh failed: ") + error.what();
     }
   catch (const SolveError &error)
     {
-      return std::string("the next mesh cannot be solved: ") + error.what();
+      return std::string("the analysis on the next mesh failed: ") + error.what();
     }
 }
 

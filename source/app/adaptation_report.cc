@@ -9,10 +9,10 @@
 
 namespace snug::app {
 namespace {
-/// Of states of which a response is called unbounded, or zero.
+/// Tolerance of the states from which a response is reported as unbounded or zero.
 const double sure_tolerance = 1e-6;
 
-/// Of a target, the part of a response that may come from a sharp edge.
+/// Maximum part of a target's response that may come from a sharp edge.
 const double small_part = 0.5;
 
 /// The least of all load cases.
@@ -45,20 +45,21 @@ void Adaptation<dim>::report(const Stage &stage)
   auto &out = context.out();
   out << "mesh " << summary.meshes.size() + 1 << ": " << mesh.dofs << " unknowns";
   if (std::isfinite(mesh.contact_faces))
-    out << ", contact " << std::round(10. * mesh.contact_faces) / 10. << " faces across";
+    out << ", faces across the contact: " << std::round(10. * mesh.contact_faces) / 10.;
   for (unsigned int d = 0; d < demands.size(); ++d)
     {
       const auto &estimate = stage.measured[d];
       mesh.responses.push_back({demands[d].name, estimate.value, estimate.error});
       out << ", " << accuracy::text_of(demands[d].name, estimate);
     }
-  out << ", " << mesh.f_mults << " F-mults to " << mesh.tolerance << ", " << mesh.seconds << " s"
-      << std::endl;
+  out << ", " << counted(mesh.f_mults, "F-mult") << ", solver tolerance " << mesh.tolerance << ", "
+      << mesh.seconds << " s" << std::endl;
   summary.meshes.push_back(mesh);
 }
 
-/// What keeps a demand from ever being met; empty: nothing. What a loose tolerance leaves is no
-/// error of the mesh: the answer holds for states that are solved well. Collective.
+/// Return why a target cannot be met by refinement; empty: it can. A loose tolerance leaves an
+/// algebraic error, which is no discretization error: the result is only valid for states that are
+/// solved to a tight tolerance. Collective.
 template <int dim>
 std::string Adaptation<dim>::failure()
 {
@@ -101,7 +102,7 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
       text += " " + accuracy::text_of(demands[d].name, solved->measured[d]);
   return text +
          (reads_pressure() && contact_faces(solved->states) < scene.accuracy.contact_faces
-            ? " with too few faces across a contact"
+            ? ", and a contact has fewer than " + to_text(scene.accuracy.contact_faces) + " faces"
             : "") +
          (unresolved.empty() ? "" : "; " + unresolved.front()) + "; " + advice;
 }
@@ -141,11 +142,10 @@ std::string Adaptation<dim>::unbounded_at_edge()
               summary.met = false;
               return "targets are not met: " +
                      accuracy::text_of(demands[d].name, solved->measured[d]) + "; " + edge.text +
-                     ": round the edge, or ask for energies, forces and areas alone";
+                     ": round the edge, or set targets of energies, forces and areas only";
             }
           if (part > 0.)
-            context.out() << "warning: " << edge.text << ": " << demands[d].name
-                          << " holds away from it" << std::endl;
+            context.warn(edge.text + ": " + demands[d].name + " is valid only away from the edge");
         }
     }
   return "";

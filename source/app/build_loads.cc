@@ -129,7 +129,7 @@ private:
   const std::string          section, prefix;
 };
 
-/// What bodies and scene load, whatever the load case.
+/// Return the loads of bodies and scene that all load cases share.
 template <int dim>
 state::LoadCase<dim> common_loads(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
 {

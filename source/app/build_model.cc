@@ -42,9 +42,7 @@ double state_tolerance(const scene::Scene &scene)
     sharp = sharp || feels_errors(constraint.first);
   return sharp ? std::clamp(scene.optimization.objective_tolerance, least, usual) : usual;
 }
-} // namespace
 
-namespace {
 /// "body.boundary" of the faces that are held along their normal.
 std::vector<std::string> held_along_normals(const scene::Scene &scene)
 {
@@ -99,15 +97,61 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
 }
 
 template <int dim>
+std::unique_ptr<mesh::Forest<dim>> build_forest(const scene::Scene &scene, MPI_Comm communicator)
+{
+  return with_file_context(scene, [&]() {
+    return std::make_unique<mesh::Forest<dim>>(communicator, mesh_parameters(scene));
+  });
+}
+
+template <int dim>
+std::unique_ptr<mesh::BodyMesh<dim>>
+build_mesh(const scene::Scene &scene, const mesh::Forest<dim> &forest, const bool is_torn)
+{
+  std::optional<mesh::TearingParameters> tearing;
+  if (is_torn)
+    {
+      tearing = scene.tearing;
+      // The same subdomains on any number of ranks give the same adaptive meshes.
+      tearing->at_least_ranks = scene.accuracy.targets.empty();
+      for (const auto &body : scene.bodies)
+        tearing->nearly_incompressible.push_back(scene::is_nearly_incompressible(scene, body));
+    }
+  return with_file_context(scene, [&]() {
+    return std::make_unique<mesh::BodyMesh<dim>>(forest, scene.degree, idealization(scene),
+                                                 tearing);
+  });
+}
+
+template <int dim>
 std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &scene, MPI_Comm communicator)
 {
-  auto tearing = scene.tearing;
-  for (const auto &body : scene.bodies)
-    tearing.nearly_incompressible.push_back(scene::is_nearly_incompressible(scene, body));
-  return made_of(scene, [&]() {
-    return std::make_unique<mesh::BodyMesh<dim>>(communicator, mesh_parameters(scene), scene.degree,
-                                                 idealization(scene), tearing);
-  });
+  return build_mesh(scene, *build_forest<dim>(scene, communicator));
+}
+
+template <int dim>
+std::vector<contact::Pair> build_pairs(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+{
+  std::vector<contact::Pair> pairs;
+  const auto                 modulus = [&](const contact::Side &side) {
+    const auto &body = scene.bodies[side.body()];
+    const auto  materials = materials_of(scene, body, mesh.geometry(side.body()).region_names());
+    double      least = std::numeric_limits<double>::max();
+    for (const auto &material : materials)
+      least = std::min(least, material.youngs_modulus);
+    return least;
+  };
+  for (const auto &entry : scene.contact.pairs)
+    {
+      auto pair = find_pair(scene, mesh, entry);
+      if (!pair.obstacle)
+        {
+          const auto [least, largest] = std::minmax({modulus(pair.slave), modulus(pair.master)});
+          pair.modulus_ratio          = largest / least;
+        }
+      pairs.push_back(std::move(pair));
+    }
+  return pairs;
 }
 
 template <int dim>
@@ -126,24 +170,9 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
       model.bodies.back().materials   = materials_of(scene, body, mesh.geometry(b).region_names());
       model.bodies.back().formulation = body.formulation;
     }
-  model.load_cases   = build_load_cases(scene, mesh);
-  model.supports     = build_supports(scene, mesh);
-  const auto modulus = [&](const contact::Side &side) {
-    double least = std::numeric_limits<double>::max();
-    for (const auto &material : model.bodies[side.body()].materials)
-      least = std::min(least, material.youngs_modulus);
-    return least;
-  };
-  for (const auto &entry : scene.contact.pairs)
-    {
-      auto pair = find_pair(scene, mesh, entry);
-      if (!pair.obstacle)
-        {
-          const auto [least, largest] = std::minmax({modulus(pair.slave), modulus(pair.master)});
-          pair.contrast               = largest / least;
-        }
-      model.pairs.push_back(std::move(pair));
-    }
+  model.load_cases = build_load_cases(scene, mesh);
+  model.supports   = build_supports(scene, mesh);
+  model.pairs      = build_pairs(scene, mesh);
   return model;
 }
 
@@ -154,10 +183,16 @@ std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene
   return build_mesh<dim>(scene, context.communicator());
 }
 
-template std::unique_ptr<mesh::BodyMesh<2>> timed_mesh(RunContext &, const scene::Scene &);
-template std::unique_ptr<mesh::BodyMesh<3>> timed_mesh(RunContext &, const scene::Scene &);
-template std::unique_ptr<mesh::BodyMesh<2>> build_mesh(const scene::Scene &, MPI_Comm);
-template std::unique_ptr<mesh::BodyMesh<3>> build_mesh(const scene::Scene &, MPI_Comm);
-template state::Model<2> build_model(const scene::Scene &, const mesh::BodyMesh<2> &);
-template state::Model<3> build_model(const scene::Scene &, const mesh::BodyMesh<3> &);
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template std::unique_ptr<mesh::Forest<dim>>   build_forest(const scene::Scene &, MPI_Comm);   \
+  template std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &,                \
+                                                           const mesh::Forest<dim> &, bool);    \
+  template std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &, MPI_Comm);     \
+  template std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &, const scene::Scene &); \
+  template std::vector<contact::Pair>           build_pairs(const scene::Scene &,               \
+                                                            const mesh::BodyMesh<dim> &);       \
+  template state::Model<dim> build_model(const scene::Scene &, const mesh::BodyMesh<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::app

@@ -30,12 +30,14 @@ public:
                            hint());
       }
     if (options.ranks > 0 && !options.estimate)
-      throw InputError("option '--ranks' is for --estimate; mpirun starts ranks" + hint());
+      throw InputError(
+        "option '--ranks' requires --estimate; mpirun sets the number of ranks of a run" + hint());
     const bool needs_no_file = options.print_parameters || options.help || options.version;
     if (options.file.empty() && !needs_no_file)
       throw InputError("no parameter file" + hint());
     if (options.advise + options.estimate + options.validate + options.restart > 1)
-      throw InputError("one of --advise, --estimate, --validate and --restart at a time" + hint());
+      throw InputError("only one of --advise, --estimate, --validate and --restart is allowed" +
+                       hint());
     return options;
   }
 
@@ -105,7 +107,7 @@ private:
     return name == "--version" ? &options.version : nullptr;
   }
 
-  /// What follows the equals sign, or the next argument.
+  /// Return the text behind the equals sign, or the next argument.
   std::string value_of(const std::string &argument, const std::size_t equals)
   {
     std::string value;
@@ -137,31 +139,31 @@ std::string usage()
     snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
     snug --validate FILE.prm | --print-parameters | --help | --version
 
-Finds the shape of elastic bodies that makes their contact best.
-    mpirun -np 4 snug FILE.prm    runs on 4 MPI ranks
+Shape optimization of elastic bodies in frictionless contact.
+    mpirun -np 4 snug FILE.prm    run on 4 MPI ranks
 
     --set "Subsection/Entry=value"
                         change an entry of the file, for example
                         --set "Body punch/Box cells=4, 4, 4" --set Task=state
-    --output DIR        leave the results there
+    --output DIR        set the output directory
     --petsc "-NAME VALUE ..."
-                        options of PETSc, for example another package for K^+:
+                        set options of PETSc, for example another package for K^+:
                         --petsc "-kplus_pc_factor_mat_solver_type mumps"
-    --restart           go on with an interrupted optimization
-    --validate          read and check the file, list bodies and boundaries with
-                        areas and bounding boxes, solve nothing
-    --advise            solve the first state and say what the scene could do without
-                        or lacks: symmetry, rigid bodies, needless cells, locking
-    --estimate          say what a run will take, in memory and seconds, and build
-                        nothing; --ranks N for runs on N MPI ranks
-    --print-parameters  all entries, their defaults and meaning (Markdown)
+    --restart           continue an interrupted optimization
+    --validate          check the file, list bodies and boundaries with areas and
+                        bounding boxes, without a solve
+    --advise            solve the first state and list simplifications of the model
+                        (symmetry, rigid bodies, needless cells) and defects (locking)
+    --estimate          print the memory and the time of a run without building the
+                        model; --ranks N for runs on N MPI ranks
+    --print-parameters  print all entries, their defaults and meanings (Markdown)
     --help, --version
 
-Exit status: 0 done; 2 the input is wrong; 3 the problem has no solution or was
-not solved to its tolerance; 1 anything else. An optimization that is interrupted
-or runs out of evaluations ends with 0 if its design meets the constraints, else
-with 3. Options of PETSc are taken from the environment variable PETSC_OPTIONS
-as well; what nobody asked for is named when the run ends (doc/cluster.md).
+Exit status: 0 complete; 2 the input is wrong; 3 the problem has no solution or was
+not solved to its tolerance; 1 any other error. An optimization that is interrupted
+or reaches its maximum number of evaluations ends with 0 if its design satisfies the
+constraints, otherwise with 3. Options of PETSc are also read from the environment
+variable PETSC_OPTIONS; unused options are listed at the end (doc/cluster.md).
 )";
 }
 } // namespace snug::app

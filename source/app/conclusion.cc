@@ -9,11 +9,11 @@ namespace snug::app {
 namespace {
 using optimization::OptimizationResult;
 
-/// Drifts of round-off alone: paired anew, the state is the same.
+/// Drifts of round-off alone, with which a new contact search would give the same state.
 const double no_drift = 1e-12;
 
-/// Changes of the objective, and violations of constraints, from which on it is
-/// said that the pairing matters; both relative.
+/// Relative changes of the objective and relative violations of constraints from which on a new
+/// contact search is said to matter.
 const double most_change = 1e-3, most_violation = 1e-6;
 
 template <int dim>
@@ -22,9 +22,10 @@ void print_end(const ShapeProblem<dim>                  &problem,
                const std::vector<io::Summary::State>    &first,
                const typename ShapeProblem<dim>::States &last)
 {
-  auto &out = problem.context.out();
-  out << "stopped: " << result.stop_reason << " after " << result.iterations << " iterations and "
-      << result.evaluations << " evaluations\n"
+  auto &out = problem.context.out(Verbosity::quiet);
+  out << (result.success ? "converged: " : "stopped: ") << result.stop_reason << " after "
+      << counted(result.iterations, "iteration") << " and "
+      << counted(result.evaluations, "evaluation") << '\n'
       << problem.scene.optimization.objective << ' ' << result.objective_initial << " -> "
       << result.objective_final;
   for (unsigned int c = 0; c < last.size(); ++c)
@@ -34,107 +35,111 @@ void print_end(const ShapeProblem<dim>                  &problem,
   out << std::endl;
 }
 
-/// The design found is the best for the pairing it was searched with: say what it is worth where
-/// contact is paired anew. Ends all states.
+/// Return the values of the design found after a new contact search, or nothing if the states are
+/// those of a new contact search to round-off, or if there is no state, which is a warning.
+/// Ends all states. Collective.
 template <int dim>
-void measure_paired_anew(Search<dim>              &search,
-                         const OptimizationResult &result,
-                         const bool                is_paired)
+std::optional<DesignValues>
+values_paired_anew(Search<dim> &search, const OptimizationResult &result, const bool is_paired)
 {
-  auto &problem   = search.problem;
-  auto &results   = search.results;
-  auto &evaluator = search.evaluator;
-  if (result.end == optimization::End::interrupted ||
+  auto &problem = search.problem;
+  if (result.end == optimization::StopReason::interrupted ||
       (!is_paired && problem.drift(result.x) < no_drift))
-    return;
-  if (!is_paired)
-    evaluator.pair(result.x);
-  typename Evaluator<dim>::Values values;
+    return {};
+  if (is_paired)
+    return search.evaluator.values(search.evaluator.analysis(result.x).states);
+  search.evaluator.pair(result.x);
   try
     {
-      values = evaluator.values(is_paired ? evaluator.states : problem.solve(result.x));
+      return search.evaluator.values(problem.solve(result.x));
     }
   catch (const SolveError &no_state)
     {
-      results.warn({"with contact paired anew, the final design has no state: " +
-                    std::string(no_state.what())});
-      return;
+      search.results.warn({"after a new contact search, the analysis of the final design fails: " +
+                           std::string(no_state.what())});
+      return {};
     }
-  auto &summary                            = *results.summary.optimization;
-  summary.objective_paired_anew            = values.objective;
-  summary.constraint_violation_paired_anew = values.violation;
-  const double       change                = std::abs(values.objective - result.objective_final);
+}
+
+/// The design found is the best for the contact search of its optimization. Report its values after
+/// a new contact search. Ends all states. Collective.
+template <int dim>
+void report_paired_anew(Search<dim> &search, const OptimizationResult &result, const bool is_paired)
+{
+  const auto values = values_paired_anew(search, result, is_paired);
+  if (!values)
+    return;
+  const auto &scene                        = search.problem.scene;
+  auto       &summary                      = *search.results.summary.optimization;
+  summary.objective_paired_anew            = values->objective;
+  summary.constraint_violation_paired_anew = values->violation;
+  const double       change                = std::abs(values->objective - result.objective_final);
   std::ostringstream line;
-  line << "with contact paired anew, the final design has " << problem.scene.optimization.objective
-       << ' ' << values.objective << " instead of " << result.objective_final;
-  const bool breaks = values.violation > std::max(most_violation, result.constraint_violation) &&
-                      values.violation > problem.scene.optimization.constraint_tolerance;
+  line << "after a new contact search, the final design has " << scene.optimization.objective << ' '
+       << values->objective << " instead of " << result.objective_final;
+  const bool breaks = values->violation > std::max(most_violation, result.constraint_violation) &&
+                      values->violation > scene.optimization.constraint_tolerance;
   if (breaks)
-    line << " and violates a constraint by " << values.violation << " of its limit instead of "
+    line << " and violates a constraint by " << values->violation << " of its limit instead of "
          << result.constraint_violation;
   if (breaks || change > most_change * std::abs(result.objective_final))
-    results.warn({line.str() + "; 'Contact/Update pairing' goes on from there"});
+    search.results.warn({line.str() + "; 'Contact/Update pairing' can continue from there"});
   else
     search.log(line.str());
 }
 
-/// What the gain is worth, where the error of the objective is estimated. A gain within the error
-/// may be one of the mesh. A first design that breaks constraints may have to get worse.
+/// Report the gain of the objective where its error is estimated. A gain below the error may be
+/// a change of the discretization error. The objective of a first design that violates constraints
+/// may have to increase.
 template <int dim>
-void measure_gain(Search<dim>              &search,
-                  const Books<dim>         &books,
-                  const OptimizationResult &result,
-                  const Known              &known)
+void report_gain(Search<dim>                              &search,
+                 const OptimizationResult                 &result,
+                 const typename ShapeProblem<dim>::States &states,
+                 const PriorResults                       &prior)
 {
-  auto        &problem  = search.problem;
-  const auto   combined = problem.combined_objective(search.evaluator.states);
-  const double error    = objective_error(problem.scene, combined.factors, search.results.errors());
+  const auto  &scene    = search.problem.scene;
+  const auto   combined = search.problem.combined_objective(states);
+  const double error    = objective_error(scene, combined.factors, search.results.errors());
   if (!std::isfinite(error))
     return;
   io::Summary::Gain gain;
-  gain.initial       = std::isfinite(known.initial) ? known.initial : result.objective_initial;
-  gain.initial_error = known.initial_error;
+  gain.initial       = std::isfinite(prior.initial) ? prior.initial : result.objective_initial;
+  gain.initial_error = prior.initial_error;
   gain.final         = combined.value;
   gain.final_error   = error;
   gain.counts        = gain.initial - gain.final > error;
 
   std::ostringstream line;
-  line << problem.scene.optimization.objective << ' ' << gain.initial;
+  line << scene.optimization.objective << ' ' << gain.initial;
   if (std::isfinite(gain.initial_error))
     line << " +- " << gain.initial_error;
-  line << " -> " << gain.final << " +- " << error << ", by the estimated errors of the meshes";
-  search.log(line.str());
+  line << " -> " << gain.final << " +- " << error << " (estimated discretization errors)";
+  search.problem.context.out(Verbosity::quiet) << line.str() << std::endl;
   search.results.summary.optimization->gain = gain;
-  const bool is_free = books.first_violation <= problem.scene.optimization.constraint_tolerance;
+  const bool is_free = search.record.first_violation <= scene.optimization.constraint_tolerance;
   if (is_free && !gain.counts)
-    search.results.warn({"the gain of the objective is smaller than its estimated error: it may be "
-                         "one of the mesh alone; ask for a smaller error in 'Accuracy/Target'"});
+    search.results.warn({"the gain of the objective is smaller than its estimated error and may be "
+                         "an effect of the mesh; set a smaller error in 'Accuracy/Target'"});
 }
 } // namespace
 
 template <int dim>
-void conclude(Search<dim>                            &search,
-              const Books<dim>                       &books,
-              const optimization::OptimizationResult &result,
-              const Known                            &known)
+void report_result(Search<dim>                            &search,
+                   const optimization::OptimizationResult &result,
+                   const PriorResults                     &prior)
 {
-  auto &problem   = search.problem;
-  auto &results   = search.results;
-  auto &evaluator = search.evaluator;
+  auto &problem = search.problem;
+  auto &results = search.results;
   search.finish_first();
-  // the last one evaluated may be another, or all were replayed
-  if (evaluator.gradients.of_response.empty() || evaluator.design != result.x)
-    {
-      auto evaluation = result.evaluation;
-      search.differentiate(result.x, evaluation);
-    }
-  auto       &states       = evaluator.states;
-  const auto &of_objective = evaluator.gradients.of_response.front();
+  search.warn_of_weak_contacts(result.x);
+  auto       &analysis     = search.evaluator.analysis(result.x);
+  auto       &states       = analysis.states;
+  const auto &of_objective = analysis.gradients.of_response.front();
   if (problem.scene.report_linear_reference)
     for (auto &state : states)
       state.linear_f_mults = problem.solver->linear_f_mults(state);
   results.warn(states);
-  results.add_last(result.iterations, states, of_objective.shape, known.errors);
+  results.add_last(result.iterations, states, of_objective.shape, prior.errors);
   results.export_shape(result.x);
 
   results.summary.gradient     = io::Summary::Gradient();
@@ -142,18 +147,18 @@ void conclude(Search<dim>                            &search,
   gradient.method              = to_text(of_objective.method);
   gradient.reason              = of_objective.reason;
   gradient.differentiable      = of_objective.differentiable;
-  gradient.f_mults             = evaluator.gradients.f_mults;
-  gradient.seconds             = evaluator.gradients.seconds;
+  gradient.f_mults             = analysis.gradients.f_mults;
+  gradient.seconds             = analysis.gradients.seconds;
   gradient.values              = result.evaluation.gradient;
   results.summary.optimization = {{result}, to_text(result.algorithm)};
   print_end(problem, result, results.first(), states);
-  measure_gain(search, books, result, known);
-  measure_paired_anew(search, result, known.is_paired);
+  report_gain(search, result, states, prior);
+  report_paired_anew(search, result, prior.is_paired);
   results.write_summary();
 }
 
 template void
-conclude(Search<2> &, const Books<2> &, const optimization::OptimizationResult &, const Known &);
+report_result(Search<2> &, const optimization::OptimizationResult &, const PriorResults &);
 template void
-conclude(Search<3> &, const Books<3> &, const optimization::OptimizationResult &, const Known &);
+report_result(Search<3> &, const optimization::OptimizationResult &, const PriorResults &);
 } // namespace snug::app

@@ -5,17 +5,36 @@
 
 namespace snug::app {
 template <int dim>
-Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem)
+Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem, const Design &paired)
   : problem(problem), starts(problem.shapes->first_steps())
 {
+  const auto start    = problem.shapes->start();
+  const bool re_pairs = is_relative_to_first() && paired != start;
+  if (re_pairs)
+    pair(start);
   for (const auto &[name, limit] : problem.scene.optimization.constraints)
     constraints.push_back(make_constraint(name, limit));
   for (const Constraint &constraint : constraints)
     measured.push_back({constraint.response.get(), constraint.load_case});
-  // its scale is that of the first design, whatever a journal replays
   if (problem.scene.optimization.combine == optimization::Combination::worst &&
       problem.n_load_cases() > 1)
-    problem.combined_objective(first_states());
+    problem.scale_objective(first_states());
+  if (re_pairs)
+    pair(paired);
+}
+
+/// Return whether a limit or the scale of 'worst' needs the states of the first design.
+template <int dim>
+bool Evaluator<dim>::is_relative_to_first() const
+{
+  const auto &parameters  = problem.scene.optimization;
+  const auto  is_relative = [&](const auto &constraint) {
+    const auto of = scene::constraint_name(problem.scene, constraint.first);
+    return optimization::read_limit(constraint.second).of_initial &&
+           problem.make_response(of.response)->needs_solution();
+  };
+  return (parameters.combine == optimization::Combination::worst && problem.n_load_cases() > 1) ||
+         std::any_of(parameters.constraints.begin(), parameters.constraints.end(), is_relative);
 }
 
 template <int dim>
@@ -46,15 +65,14 @@ typename Evaluator<dim>::Constraint Evaluator<dim>::make_constraint(const std::s
 }
 
 template <int dim>
-optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
+optimization::Evaluation Evaluator<dim>::evaluate(const Design &design)
 {
-  states = problem.solve(at, starts.at(at));
-  design = at;
+  current = Analysis<dim>{design, problem.solve(design, starts.at(design))};
+  const auto                  &states = current->states;
   std::vector<qp::MultiVector> forces;
   for (const auto &state : states)
     forces.push_back(state.dual.lambda);
-  starts.add(at, std::move(forces));
-  gradients = {};
+  starts.add(design, std::move(forces));
 
   optimization::Evaluation evaluation;
   const auto               found = values(states);
@@ -71,39 +89,51 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &at)
 }
 
 template <int dim>
-void Evaluator<dim>::differentiate(const Design &at, optimization::Evaluation &evaluation)
+Analysis<dim> &Evaluator<dim>::analysis(const Design &design)
 {
-  if (states.empty() || design != at)
+  if (!last(design))
+    current = Analysis<dim>{design, problem.solve(design, starts.at(design))};
+  if (current->gradients.of_response.empty())
     {
-      states = problem.solve(at, starts.at(at));
-      design = at;
+      auto parameters = problem.scene.gradient;
+      if (parameters.method == sensitivity::Method::energy) // does not hold for every constraint
+        parameters.method.reset();
+      if (is_predicted())
+        parameters.method = sensitivity::Method::direct;
+      current->gradients =
+        sensitivity::combined_gradients(problem.load_cases(current->states, design, parameters),
+                                        *problem.objective,
+                                        problem.combined_objective(current->states).factors,
+                                        measured);
     }
-  auto parameters = problem.scene.gradient;
-  if (parameters.method == sensitivity::Method::energy) // not for every constraint
-    parameters.method.reset();
-  if (is_predicted())
-    parameters.method = sensitivity::Method::direct;
-  gradients = sensitivity::combined_gradients(problem.load_cases(states, design, parameters),
-                                              *problem.objective,
-                                              problem.combined_objective(states).factors, measured);
-  evaluation.gradient = gradients.of_response.front().values;
+  // The solver may have been at another design since, for example at the first one.
+  for (const auto &state : current->states)
+    problem.solver->restore(state);
+  return *current;
+}
+
+template <int dim>
+void Evaluator<dim>::differentiate(const Design &design, optimization::Evaluation &evaluation)
+{
+  const auto &at      = analysis(design);
+  evaluation.gradient = at.gradients.of_response.front().values;
   evaluation.jacobian.clear();
   for (unsigned int i = 0; i < constraints.size(); ++i)
     {
-      evaluation.jacobian.push_back(gradients.of_response[1 + i].values);
+      evaluation.jacobian.push_back(at.gradients.of_response[1 + i].values);
       for (double &entry : evaluation.jacobian.back())
         entry *= constraints[i].sign();
     }
   if (is_predicted())
-    evaluation.linearization = linearized_contact();
-  evaluation.f_mults += gradients.f_mults;
+    evaluation.linearization = linearized_contact(at);
+  evaluation.f_mults += at.gradients.f_mults;
   evaluation.seconds = problem.context.seconds();
 }
 
 template <int dim>
-typename Evaluator<dim>::Values Evaluator<dim>::values(const States &states)
+DesignValues Evaluator<dim>::values(const States &states) const
 {
-  Values result;
+  DesignValues result;
   result.objective = problem.combined_objective(states).value;
   for (const Constraint &constraint : constraints)
     {
@@ -154,8 +184,8 @@ template <int dim>
 void Evaluator<dim>::pair(const Design &at)
 {
   problem.solver->pair(problem.positions(at));
-  states.clear();
-  gradients = {};
+  current.reset();
+  of_first.clear();
   starts.clear();
 }
 

@@ -7,7 +7,7 @@
 
 namespace snug::app {
 namespace {
-/// Whether all ranks call this within @p patience seconds.
+/// Return whether all ranks call this function within @p patience seconds.
 bool all_arrive(MPI_Comm communicator, const double patience)
 {
   using Clock          = std::chrono::steady_clock;

@@ -71,8 +71,9 @@ void Adaptation<dim>::add_marked(RefinedCells &cells) const
       }
 }
 
-/// Of a contact that stays too narrow, as where a slender body bends: the cells that estimates
-/// mark, though their sum is not trusted. Collective.
+/// Add the cells that the estimates mark, although a contact is too narrow for the sum of these
+/// estimates. Otherwise a contact that stays narrow, as on a slender body in bending, would stop
+/// the refinement. Collective.
 template <int dim>
 void Adaptation<dim>::add_marked_beside(RefinedCells &cells)
 {

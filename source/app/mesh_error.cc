@@ -58,7 +58,7 @@ std::vector<std::string> described(const ShapeProblem<dim>                  &pro
     {
       std::ostringstream line;
       line.precision(3);
-      line << "estimated error of the mesh"
+      line << "estimated discretization error"
            << (states.size() > 1 ? " in load case " + problem.scene.load_cases[c].name : "") << ": "
            << 100. * errors[c].energy.relative << " % in the energy norm";
       for (unsigned int j = 0; j < errors[c].responses.size(); ++j)

@@ -12,90 +12,110 @@ namespace snug::app {
 namespace {
 using optimization::OptimizationResult;
 
-/// A search per entry, on a mesh made for its start with errors of so many times the targets;
-/// those that follow are on meshes for the targets.
+/// Errors of the meshes of the first searches, relative to the targets. All later searches have
+/// meshes with errors of the targets.
 constexpr std::array<double, 3> phases{{8., 3., 1.}};
 
-/// If the meshes made for the designs found have not agreed by then, they will not.
+/// Maximum number of searches. Meshes made for the designs found that do not agree by then will not
+/// agree.
 constexpr unsigned int most_searches = 8;
 
-/// Designs of which no mesh is good enough: a search on the mesh that failed leaves them, where
-/// others are better.
+/// Maximum number of designs for which no mesh meets the targets. A search on the mesh that failed
+/// leaves such a design where other designs are better.
 constexpr unsigned int most_failures = 3;
 
-/// A search need not see changes of the objective below this part of its error.
+/// Part of the error of the objective below which changes of the objective end a search.
 constexpr double part_of_error = 0.3;
 
-/// Searches of which each begins where the one before has ended, until the mesh it was on is also
-/// one for the design found.
+/// A search on the mesh of the scene.
 template <int dim>
-class TargetedSearch
+std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene, const bool restart)
+{
+  ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
+  problem.check_overlaps();
+  if (!restart)
+    remove_earlier_results(context, scene);
+  catch_interrupts();
+  Results<dim> results(problem);
+  results.print_header();
+  const auto        start = problem.shapes->start();
+  SearchRecord<dim> record(results, problem, scene, restart);
+  Search<dim>       search(problem, record, start);
+  const auto        result = search.run(start);
+  report_result(search, result);
+  return optimization::failure_reason(result, scene.optimization);
+}
+
+/// Searches on meshes that are made for targets. Each search begins where the search before has
+/// ended, until the mesh of a search is also good enough for the design found.
+template <int dim>
+class AdaptiveOptimization
 {
 public:
-  TargetedSearch(RunContext &context, const scene::Scene &scene, bool restart)
-    : context(context), scene(scene), restart(restart)
+  AdaptiveOptimization(RunContext &context, const scene::Scene &scene, bool restart)
+    : context(context), scene(scene), restart(restart), adaptation(context, scene)
   {}
 
-  /// @return what is wrong with the result; empty: nothing.
+  /// Return what is wrong with the result; empty: nothing.
   std::string run();
 
 private:
   using Cells = typename Adaptation<dim>::RefinedCells;
 
-  /// The mesh made for a design.
-  struct Stage
+  /// How a design is continued from on the mesh made for it.
+  struct Phase
   {
-    scene::Scene scene;
-    double       tolerance; ///< of a search from there
-    Known        known;
-    std::string  complaint;
+    double       tolerance; ///< of a search, relative to the objective
+    PriorResults prior;
+    std::string  failure_reason; ///< empty: the targets are met
     bool         is_last;
   };
 
-  RunContext                   &context;
-  const scene::Scene           &scene;
-  const bool                    restart;
-  std::unique_ptr<Results<dim>> results;
-  std::unique_ptr<Books<dim>>   books;
-  OptimizationResult            result;
-  accuracy::Measured            initial;
-  Cells                         cells;          ///< of the last mesh
-  unsigned int                  n_failures = 0; ///< how often no mesh met the targets
+  RunContext                        &context;
+  const scene::Scene                &scene;
+  const bool                         restart;
+  Adaptation<dim>                    adaptation;
+  std::unique_ptr<Results<dim>>      results;
+  std::unique_ptr<SearchRecord<dim>> record;
+  OptimizationResult                 result;
+  accuracy::Measured                 initial;        ///< objective of the first design
+  Cells                              cells;          ///< of the last mesh
+  unsigned int                       n_failures = 0; ///< number of meshes that miss the targets
 
-  unsigned int most_evaluations() const { return scene.optimization.maximum_evaluations; }
-  void         begin();
-  bool         says_the_same(Adaptation<dim> &adaptation) const;
-  Stage        adapt(unsigned int n_searches);
-  void         search_from_last(Search<dim> &search, double tolerance);
-  void         add_meshes(io::Summary::Adaptation of, bool at_targets);
+  void  analyse_first_design();
+  bool  agrees_with_search() const;
+  Phase adapt(unsigned int n_searches);
+  void  search(Search<dim> &search, double tolerance);
+  void  add_meshes(bool at_targets);
 };
 
-/// The first design, at the targets.
+/// Analyse the first design on a mesh that meets the targets.
 template <int dim>
-void TargetedSearch<dim>::begin()
+void AdaptiveOptimization<dim>::analyse_first_design()
 {
-  context.out() << "the first design:" << std::endl;
-  Adaptation<dim> adaptation(context, scene);
-  const auto      complaint = adaptation.reach(1.);
-  const auto     &problem   = adaptation.problem();
-  results                   = std::make_unique<Results<dim>>(problem);
-  results->summary.task     = to_text(scene.task);
-  results->summary.accuracy = adaptation.summary;
+  context.out() << "adapting the mesh to the initial design:" << std::endl;
+  adaptation.start();
+  if (!restart)
+    remove_earlier_results(context, scene);
+  const auto  failure_reason = adaptation.reach(1.);
+  const auto &problem        = adaptation.problem();
+  results                    = std::make_unique<Results<dim>>(problem);
+  results->summary.accuracy  = adaptation.summary;
   results->print_header();
   results->warn(adaptation.states());
-  // a search may leave it
-  if (!complaint.empty())
-    results->warn({"of the first design, " + complaint});
+  // A search may leave a design for which no mesh meets the targets.
+  if (!failure_reason.empty())
+    results->warn({"initial design: " + failure_reason});
   results->add_first(adaptation.states(), {});
   initial  = adaptation.objective();
   result.x = problem.shapes->start();
-  books    = std::make_unique<Books<dim>>(*results, problem, scene, restart);
+  record   = std::make_unique<SearchRecord<dim>>(*results, problem, scene, restart);
 }
 
-/// The mesh that the search was on with cells added for matching alone meets the targets at once,
-/// and changes the objective by less than its error.
+/// Return whether the mesh of the last search, with cells added only to match contact faces, meets
+/// the targets at once and changes the objective by less than its error. Collective.
 template <int dim>
-bool TargetedSearch<dim>::says_the_same(Adaptation<dim> &adaptation) const
+bool AdaptiveOptimization<dim>::agrees_with_search() const
 {
   const auto objective = adaptation.objective();
   return adaptation.summary.met && adaptation.summary.meshes.size() == 1 &&
@@ -103,64 +123,66 @@ bool TargetedSearch<dim>::says_the_same(Adaptation<dim> &adaptation) const
          std::abs(objective.value - result.objective_final) <= objective.error;
 }
 
-/// A mesh for the last design found. Of the first phases each begins with the scene's own mesh:
-/// cells refined for other designs are of no use; then cells are only added, to come to an end.
-/// What a mesh is too coarse to see its estimates miss as well: the last one has to be verified.
+/// Make a mesh for the last design found. The first phases begin with the mesh of the scene,
+/// because cells refined for other designs are of no use. Later phases only add cells, because
+/// otherwise the searches might not end. The last mesh is verified, because its estimates miss the
+/// details that the mesh misses. Collective.
 template <int dim>
-typename TargetedSearch<dim>::Stage TargetedSearch<dim>::adapt(const unsigned int n_searches)
+typename AdaptiveOptimization<dim>::Phase
+AdaptiveOptimization<dim>::adapt(const unsigned int n_searches)
 {
-  const bool is_over  = n_searches > 0 && result.evaluations >= most_evaluations();
+  const bool is_over =
+    n_searches > 0 && result.evaluations >= scene.optimization.maximum_evaluations;
   const bool is_tuned = n_searches >= phases.size();
   const auto factor   = is_over || is_tuned ? 1. : phases[n_searches];
-  context.out() << "the design of iteration " << result.iterations << ", errors of up to " << factor
-                << " times the targets:" << std::endl;
-  auto adaptation =
-    std::make_unique<Adaptation<dim>>(context, scene, result.x, is_tuned ? cells : Cells());
-  auto complaint = adaptation->reach(factor);
-  bool agrees    = is_tuned && (adaptation->cells() == cells || says_the_same(*adaptation));
-  if (complaint.empty() && (is_over || agrees))
-    complaint = adaptation->verify();
-  add_meshes(adaptation->summary, factor == 1.);
-  if (!adaptation->finer_cells().empty() && !is_over)
+  context.out() << "adapting the mesh to the design of iteration " << result.iterations
+                << ", factor of the targets " << factor << ":" << std::endl;
+  adaptation.start(result.x, is_tuned ? cells : Cells());
+  auto failure_reason = adaptation.reach(factor);
+  bool agrees         = is_tuned && (adaptation.cells() == cells || agrees_with_search());
+  if (failure_reason.empty() && (is_over || agrees))
+    failure_reason = adaptation.verify();
+  add_meshes(factor == 1.);
+  if (!adaptation.finer_cells().empty() && !is_over)
     {
-      const Cells finer = adaptation->finer_cells();
-      adaptation.reset();
-      adaptation = std::make_unique<Adaptation<dim>>(context, scene, result.x, finer);
-      complaint  = adaptation->reach(factor);
-      agrees     = false;
-      add_meshes(adaptation->summary, true);
+      const Cells finer = adaptation.finer_cells();
+      adaptation.start(result.x, finer);
+      failure_reason = adaptation.reach(factor);
+      agrees         = false;
+      add_meshes(true);
     }
-  cells = adaptation->cells();
-  if (complaint.empty() && n_searches == most_searches && !agrees)
-    complaint = "the meshes made for the designs found still differ after " +
-                std::to_string(most_searches) + " searches; ask for less";
-  n_failures += !complaint.empty();
+  cells = adaptation.cells();
+  if (failure_reason.empty() && n_searches == most_searches && !agrees)
+    failure_reason = "the meshes of successive designs still differ after " +
+                     std::to_string(most_searches) + " searches; relax 'Target'";
+  n_failures += !failure_reason.empty();
   const bool is_last =
     is_over || agrees || n_searches == most_searches || n_failures == most_failures;
-  const auto objective = adaptation->objective();
-  // what is of the geometry alone has no error
+  const auto objective = adaptation.objective();
+  // A response of the geometry alone has no error.
   const double tolerance = std::isfinite(objective.error) && objective.value != 0.
                              ? part_of_error * objective.error / std::abs(objective.value)
                              : 0.;
-  return {adaptation->adapted_scene(),
-          tolerance,
-          {true, initial.value, initial.error, adaptation->errors()},
-          complaint,
+  return {tolerance,
+          {true, initial.value, initial.error, adaptation.errors()},
+          failure_reason,
           is_last};
 }
 
+/// Add the meshes of the last adaptation to the summary.
 template <int dim>
-void TargetedSearch<dim>::add_meshes(io::Summary::Adaptation of, const bool at_targets)
+void AdaptiveOptimization<dim>::add_meshes(const bool at_targets)
 {
   auto &all = *results->summary.accuracy;
+  auto  of  = adaptation.summary;
   of.met    = of.met && at_targets;
   of.meshes.insert(of.meshes.begin(), all.meshes.begin(), all.meshes.end());
   all = of;
 }
 
-/// An interruption while a mesh was made ends the search that was to follow.
+/// Search from the last design. An interruption while the mesh was made ends the search at once.
 template <int dim>
-void TargetedSearch<dim>::search_from_last(Search<dim> &search, const double tolerance)
+void AdaptiveOptimization<dim>::search(Search<dim> &search, const double tolerance)
 {
   try
     {
@@ -170,56 +192,46 @@ void TargetedSearch<dim>::search_from_last(Search<dim> &search, const double tol
     {
       if (result.evaluations == 0)
         throw;
-      result.end         = optimization::End::interrupted;
+      result.end         = optimization::StopReason::interrupted;
       result.stop_reason = "interrupted";
     }
 }
 
 template <int dim>
-std::string TargetedSearch<dim>::run()
+std::string AdaptiveOptimization<dim>::run()
 {
-  begin();
+  analyse_first_design();
   catch_interrupts();
   for (unsigned int n = 0;; ++n)
     {
-      const auto        stage = adapt(n);
-      ShapeProblem<dim> problem(context, stage.scene, timed_mesh<dim>(context, stage.scene));
-      results->watch(problem);
-      // limits that are relative to the first design are so with its pairing
-      Search<dim> search(problem, *books);
-      if (result.x != problem.shapes->start())
-        search.evaluator.pair(result.x);
-      if (!stage.is_last)
-        search_from_last(search, stage.tolerance);
-      const bool is_interrupted = result.end == optimization::End::interrupted;
-      if (!stage.is_last && !is_interrupted)
+      const auto phase   = adapt(n);
+      auto       adapted = adaptation.release();
+      results->watch(*adapted.problem);
+      Search<dim>                  on_mesh(*adapted.problem, *record, result.x);
+      std::vector<qp::MultiVector> forces;
+      for (const auto &state : adapted.states)
+        forces.push_back(state.dual.lambda);
+      on_mesh.evaluator.start_from(result.x, std::move(forces));
+      if (!phase.is_last)
+        search(on_mesh, phase.tolerance);
+      const bool is_interrupted = result.end == optimization::StopReason::interrupted;
+      if (!phase.is_last && !is_interrupted)
         continue;
-      conclude(search, *books, result, is_interrupted ? Known() : stage.known);
+      report_result(on_mesh, result, is_interrupted ? PriorResults() : phase.prior);
       results->print_work();
-      return stage.complaint.empty() ? optimization::complaint(result, scene.optimization)
-                                     : stage.complaint;
+      return phase.failure_reason.empty() ? optimization::failure_reason(result, scene.optimization)
+                                          : phase.failure_reason;
     }
 }
 } // namespace
 
 template <int dim>
-std::string optimize(ShapeProblem<dim> &problem, Results<dim> &results, const bool restart)
+std::string optimize(RunContext &context, const scene::Scene &scene, const bool restart)
 {
-  Books<dim>  books(results, problem, problem.scene, restart);
-  Search<dim> search(problem, books);
-  const auto  result = search.run(problem.shapes->start());
-  conclude(search, books, result);
-  return optimization::complaint(result, problem.scene.optimization);
+  return scene.accuracy.targets.empty() ? optimize_on_one_mesh<dim>(context, scene, restart)
+                                        : AdaptiveOptimization<dim>(context, scene, restart).run();
 }
 
-template <int dim>
-std::string optimize_to_targets(RunContext &context, const scene::Scene &scene, const bool restart)
-{
-  return TargetedSearch<dim>(context, scene, restart).run();
-}
-
-template std::string optimize(ShapeProblem<2> &, Results<2> &, bool);
-template std::string optimize(ShapeProblem<3> &, Results<3> &, bool);
-template std::string optimize_to_targets<2>(RunContext &, const scene::Scene &, bool);
-template std::string optimize_to_targets<3>(RunContext &, const scene::Scene &, bool);
+template std::string optimize<2>(RunContext &, const scene::Scene &, bool);
+template std::string optimize<3>(RunContext &, const scene::Scene &, bool);
 } // namespace snug::app

@@ -6,7 +6,8 @@ namespace snug::app {
 using optimization::Evaluation;
 
 namespace {
-/// Of the first steps: the differences that areas are differentiated by.
+/// Step of the differences by which areas are differentiated, relative to the first
+/// steps of the search.
 constexpr double area_step = 1e-3;
 
 /// Areas do not fall below this part of what they were.
@@ -58,7 +59,8 @@ private:
   const double *numbers;
   unsigned int  n_rows, n_variables;
 
-  /// Of place 0 the values, then the derivatives.
+  /// Return the forces of @p place: the values at place 0, then the derivatives with respect to
+  /// each variable.
   const double *force(unsigned int place) const { return numbers + 2 * place * n_rows; }
   const double *area(unsigned int place) const { return force(place) + n_rows; }
 };
@@ -84,9 +86,9 @@ bool Evaluator<dim>::is_predicted() const
          });
 }
 
-/// LinearRows of all load cases at the last design, one after the other. Collective.
+/// Return the LinearRows of all load cases at a design, one after the other. Collective.
 template <int dim>
-std::vector<double> Evaluator<dim>::linearized_contact() const
+std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) const
 {
   const unsigned int               n       = problem.shapes->n_variables();
   const auto                       steps   = problem.shapes->first_steps();
@@ -95,9 +97,9 @@ std::vector<double> Evaluator<dim>::linearized_contact() const
   for (unsigned int j = 0; j < n; ++j)
     {
       const auto areas_at = [&](const double h) {
-        auto at = design;
-        at[j] += h;
-        return solver.contact().areas(solver.surface().gather(problem.positions(at)));
+        auto moved = at.design;
+        moved[j] += h;
+        return solver.contact().areas(solver.surface().gather(problem.positions(moved)));
       };
       const double h     = area_step * steps[j];
       auto         areas = areas_at(h);
@@ -107,15 +109,15 @@ std::vector<double> Evaluator<dim>::linearized_contact() const
       by_area.push_back(std::move(areas));
     }
   std::vector<double> result;
-  for (unsigned int c = 0; c < states.size(); ++c)
+  for (unsigned int c = 0; c < at.states.size(); ++c)
     {
-      for (const auto &point : states[c].contact)
+      for (const auto &point : at.states[c].contact)
         result.push_back(point.force);
-      for (const auto &point : states[c].contact)
+      for (const auto &point : at.states[c].contact)
         result.push_back(point.area);
       for (unsigned int j = 0; j < n; ++j)
         {
-          const auto &forces = gradients.forces[c * n + j];
+          const auto &forces = at.gradients.forces[c * n + j];
           result.insert(result.end(), forces.begin(), forces.end());
           result.insert(result.end(), by_area[j].begin(), by_area[j].end());
         }
@@ -124,9 +126,10 @@ std::vector<double> Evaluator<dim>::linearized_contact() const
 }
 
 /**
- * What is expected at @p dx from a design: responses that are functions of contact forces and areas
- * are those of LinearRows, whatever functions they are; others are linear. A peak or a norm of
- * pressures bends far more within a step than the pressures themselves.
+ * Return the prediction at the distance @p dx from a design. Responses that are functions of
+ * contact forces and areas are computed from the forces and areas of LinearRows; other responses
+ * are linear. A peak or a norm of pressures has far more curvature within a step than the
+ * pressures.
  */
 template <int dim>
 Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<double> &dx) const
@@ -183,7 +186,7 @@ Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<dou
 #define SNUG_INSTANTIATE(dim)                                                                    \
   template bool Evaluator<dim>::measures_contact(const response::Response<dim> &) const;         \
   template bool Evaluator<dim>::is_predicted() const;                                            \
-  template std::vector<double> Evaluator<dim>::linearized_contact() const;                       \
+  template std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &) const;  \
   template Evaluation Evaluator<dim>::predicted(const Evaluation &, const std::vector<double> &) \
     const;
 SNUG_INSTANTIATE(2)

@@ -1,9 +1,10 @@
 #include <snug/accuracy/adaptation.h>
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/io/qp_export.h>
 #include <snug/io/shape_export.h>
+#include <snug/io/text_file.h>
 #include <snug/state/assumptions.h>
 #include <snug/state/symmetry_planes.h>
 
@@ -13,9 +14,24 @@
 #include <ostream>
 
 namespace snug::app {
+std::vector<std::string> output_directories(const scene::Scene &scene)
+{
+  std::vector<std::string> directories = {scene.output_directory};
+  if (scene.load_cases.size() > 1)
+    for (const auto &load_case : scene.load_cases)
+      directories.push_back(scene.output_directory + "/" + load_case.name);
+  return directories;
+}
+
+void remove_earlier_results(const RunContext &context, const scene::Scene &scene)
+{
+  io::remove_results(context, output_directories(scene));
+}
+
 template <int dim>
 Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 {
+  summary.task = to_text(of.scene.task);
   for (unsigned int c = 0; c < of.n_load_cases(); ++c)
     {
       const std::string directory = of.n_load_cases() == 1
@@ -31,12 +47,14 @@ void Results<dim>::print_header()
 {
   const auto &solver = *problem->solver;
   auto       &out    = problem->context.out();
-  out << problem->scene.bodies.size() << " bodies, " << problem->mesh->n_global_cells()
-      << " cells, " << dim * problem->mesh->n_global_free_nodes() << " unknowns, "
-      << problem->tearing.n_global << " subdomains, " << solver.gluing().n_contact_rows()
-      << " contact rows of " << solver.gluing().n_rows() << " dual rows, "
-      << problem->shapes->n_variables() << " design variables, " << problem->context.n_ranks()
-      << " ranks" << std::endl;
+  out << counted(problem->scene.bodies.size(), "body", "bodies") << ", "
+      << counted(problem->mesh->n_global_cells(), "cell") << ", "
+      << counted(dim * problem->mesh->n_global_free_nodes(), "unknown") << ", "
+      << counted(problem->tearing.n_global, "subdomain") << ", "
+      << counted(solver.gluing().n_contact_rows(), "contact constraint") << " of "
+      << counted(solver.gluing().n_rows(), "constraint") << ", "
+      << counted(problem->shapes->n_variables(), "design variable") << ", "
+      << counted(problem->context.n_ranks(), "MPI process", "MPI processes") << std::endl;
   print_import_notes(problem->scene, out);
   print_pairs();
   warn(unrefined(problem->scene, *problem->mesh));
@@ -68,7 +86,7 @@ void Results<dim>::print_pairs() const
       }
     out << names;
     if (height > 0.)
-      out << ", facets up to " << height << " off the true surface";
+      out << ", maximum distance of facets from the true surface " << height;
   };
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {
@@ -78,9 +96,10 @@ void Results<dim>::print_pairs() const
         out << "obstacle";
       else
         out << to_text(*pairs[p].parameters.method) << ", " << matching.n_matching << " of "
-            << matching.n_nodes << " nodes meet others";
-      out << ", " << rows[p] << " rows, gaps from " << contact.paired_gaps()[p].least << " to "
-          << contact.paired_gaps()[p].largest << "\n  " << pairs[p].slave_name << ": ";
+            << counted(matching.n_nodes, "slave node") << " match a master node";
+      out << ", " << counted(rows[p], "constraint") << ", initial gap "
+          << contact.paired_gaps()[p].least << " to " << contact.paired_gaps()[p].largest << "\n  "
+          << pairs[p].slave_name << ": ";
       print_side(pairs[p].slave);
       out << "; " << pairs[p].master_name << ": ";
       if (pairs[p].obstacle)
@@ -94,19 +113,18 @@ void Results<dim>::print_pairs() const
 template <int dim>
 void Results<dim>::print_work() const
 {
-  unsigned long unknowns = 0, f_mults = 0;
+  unsigned long f_mults = 0;
   for (const auto &mesh : summary.accuracy->meshes)
-    {
-      unknowns += mesh.dofs;
-      f_mults += mesh.f_mults;
-    }
-  auto &out = problem->context.out();
-  out << (summary.accuracy->met ? "targets met" : "targets not met") << " on "
-      << summary.accuracy->meshes.size() << " meshes with " << unknowns << " unknowns and "
-      << f_mults << " F-mults in all;";
+    f_mults += mesh.f_mults;
+  problem->context.out(Verbosity::quiet)
+    << (summary.accuracy->met ? "targets met" : "targets not met") << ": "
+    << counted(summary.accuracy->meshes.size(), "mesh", "meshes") << ", "
+    << counted(f_mults, "F-mult") << std::endl;
+  auto &out = problem->context.out(Verbosity::debug);
+  out << "time of each stage [s]:";
   for (const auto *stage :
        {"setup", "assembly", "factorization", "soft modes", "solve", "accuracy"})
-    out << ' ' << stage << ' ' << problem->context.seconds(stage) << " s";
+    out << ' ' << stage << ' ' << problem->context.seconds(stage);
   out << std::endl;
 }
 
@@ -117,7 +135,7 @@ void Results<dim>::warn(const std::vector<std::string> &lines)
     if (std::find(warnings.begin(), warnings.end(), line) == warnings.end())
       {
         warnings.push_back(line);
-        problem->context.out() << "warning: " << line << std::endl;
+        problem->context.warn(line);
       }
 }
 
@@ -130,8 +148,8 @@ void Results<dim>::warn(const States &states)
       warn(state.free_bodies);
     }
   if (std::all_of(states.begin(), states.end(), state::is_at_rest<dim>))
-    warn({"nothing moves: no force, pressure, moment or weight, no prescribed displacement and no "
-          "overlap in any load case"});
+    warn({"all displacements are zero: no load case has a force, pressure, moment, weight, "
+          "prescribed displacement or overlap"});
 }
 
 template <int dim>
@@ -140,9 +158,9 @@ void Results<dim>::warn_of_weak_contacts(const States &states, const std::string
   unsigned int weak_contacts = 0;
   for (const auto &state : states)
     weak_contacts += state.weak_contacts;
-  warn({std::to_string(weak_contacts) +
-        " contacts are weakly active (neither force nor gap): what depends on the displacement "
-        "has only one-sided derivatives" +
+  warn({counted(weak_contacts, "contact is", "contacts are") +
+        " weakly active (neither force nor gap): functions of the displacement have only one-sided "
+        "derivatives" +
         more});
 }
 
@@ -165,7 +183,7 @@ void Results<dim>::draw(const double                  time,
                                states[c], gradient ? &*gradient : nullptr,
                                errors.empty() ? nullptr : &errors[c].energy.cells);
       pictures[c].contact.write({*problem->mesh, solver.surface(), contact.joined_pairs(),
-                                 contact.places(), contact.shared_nodes()},
+                                 contact.places(), contact.dependent_multipliers()},
                                 time, states[c]);
     }
 }
@@ -189,7 +207,7 @@ io::Summary::State Results<dim>::summarize(const state::ContactState<dim> &state
   return result;
 }
 
-/// Of the first load case.
+/// Export the quadratic program of the first load case.
 template <int dim>
 void Results<dim>::export_first_qp(const States &states)
 {
@@ -221,12 +239,12 @@ std::vector<MeshError> Results<dim>::estimate(const States &states)
     {
       auto errors = mesh_errors(*problem, states);
       for (const std::string &line : described(*problem, states, errors))
-        problem->context.out() << line << std::endl;
+        problem->context.out(Verbosity::quiet) << line << std::endl;
       return errors;
     }
   catch (const SolveError &error)
     {
-      warn({std::string("no estimate of the mesh's error: ") + error.what()});
+      warn({std::string("no estimate of the discretization error: ") + error.what()});
       return {};
     }
 }
@@ -288,7 +306,7 @@ void Results<dim>::advise(const States &states)
   if (std::isfinite(smallest))
     subject.target = smallest;
   summary.advice = advice::give(subject);
-  auto &out      = problem->context.out();
+  auto &out      = problem->context.out(Verbosity::quiet);
   for (const auto &item : *summary.advice)
     {
       out << "advice, " << item.kind << ": " << item.text;
@@ -312,7 +330,7 @@ void Results<dim>::export_shape(const std::vector<double> &design)
   const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
   const auto               at_faces = faces.gather(problem->positions(design));
   const auto               points   = problem->shapes->control_points(design);
-  everywhere(problem->context.communicator(), [&]() {
+  throw_collectively(problem->context.communicator(), [&]() {
     if (problem->context.rank() != 0)
       return;
     io::write_surface(path("surface"), faces, at_faces);
@@ -340,7 +358,7 @@ void Results<dim>::write_summary()
   if (!io::blas_warning(summary.program).empty())
     summary.warnings.push_back(io::blas_warning(summary.program));
   summary.warnings.insert(summary.warnings.end(), warnings.begin(), warnings.end());
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     if (context.rank() == 0)
       summary.write(path("summary.json"));
   });

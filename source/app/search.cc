@@ -12,11 +12,11 @@ using optimization::Iteration;
 using optimization::OptimizationResult;
 
 namespace {
-/// Moves of slave nodes off their pairing below this, in faces, are none.
+/// Moves of slave nodes off their pairing below this value, in faces, need no new contact search.
 const double unmoved = 1e-3;
 
-/// Everything that decides the numbers: the scene but where results go and
-/// when to stop, and of mesh files what is in them, wherever they are.
+/// Return everything that decides the numbers of a run: the scene without the output directory and
+/// the maximum of evaluations, and the contents of mesh files instead of their paths.
 std::string fingerprint(scene::Scene scene)
 {
   scene.output_directory = "";
@@ -32,10 +32,10 @@ std::string fingerprint(scene::Scene scene)
 } // namespace
 
 template <int dim>
-Books<dim>::Books(Results<dim>            &results,
-                  const ShapeProblem<dim> &problem,
-                  const scene::Scene      &scene,
-                  const bool               restart)
+SearchRecord<dim>::SearchRecord(Results<dim>            &results,
+                                const ShapeProblem<dim> &problem,
+                                const scene::Scene      &scene,
+                                const bool               restart)
   : results(results)
   , history(results.path("history.csv"), problem.shapes->n_variables())
   , journal({scene.output_directory, fingerprint(scene), restart, problem.context.communicator(),
@@ -45,51 +45,47 @@ Books<dim>::Books(Results<dim>            &results,
 {}
 
 template <int dim>
-Search<dim>::Search(ShapeProblem<dim> &problem, Books<dim> &books)
-  : problem(problem), results(books.results), evaluator(problem), books(books)
+Search<dim>::Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const Design &paired)
+  : problem(problem), record(record), results(record.results), evaluator(problem, paired)
 {}
 
 template <int dim>
-optimization::Evaluation Search<dim>::evaluate(const std::vector<double> &design)
+void Search<dim>::warn_of_weak_contacts(const Design &design)
 {
-  problem.context.progress("solving the contact problem ...");
-  return evaluator.evaluate(design);
-}
-
-template <int dim>
-void Search<dim>::differentiate(const std::vector<double> &design,
-                                optimization::Evaluation  &evaluation)
-{
-  evaluator.differentiate(design, evaluation);
-  for (const auto &gradient : evaluator.gradients.of_response)
+  const auto &analysis = evaluator.analysis(design);
+  for (const auto &gradient : analysis.gradients.of_response)
     if (!gradient.differentiable)
-      results.warn_of_weak_contacts(evaluator.states,
-                                    "; going on with those of the strongly active ones");
+      results.warn_of_weak_contacts(analysis.states,
+                                    "; continuing with those of the strongly active contacts");
 }
 
-/// An iteration of the search that begins after @p before of them.
+/// Summarize the first design of all searches, and print the header of the table of iterations.
+template <int dim>
+void Search<dim>::report_first(const Iteration &iteration)
+{
+  auto &out              = problem.context.out();
+  record.first_violation = iteration.constraint_violation;
+  if (const auto *analysis = evaluator.last(iteration.x); analysis && results.first().empty())
+    {
+      const auto &of_objective = analysis->gradients.of_response.front();
+      if (!of_objective.reason.empty())
+        out << "gradient method: " << to_text(of_objective.method) << " (auto; "
+            << of_objective.reason << ")" << std::endl;
+      results.add_first(analysis->states, of_objective.shape);
+    }
+  if (problem.scene.optimization.algorithm == optimization::Algorithm::SLSQP)
+    out << "initial trust region: node displacements of at most half a cell edge"
+        << (evaluator.is_predicted() ? "; contact pressures are predicted from derivatives" : "")
+        << std::endl;
+  out << io::log_header() << std::endl;
+}
+
+/// Report an iteration of the search that begins after @p before iterations.
 template <int dim>
 void Search<dim>::report(const Iteration &iteration, const unsigned int before)
 {
-  auto &out = problem.context.out();
   if (before + iteration.number == 0)
-    {
-      books.first_violation = iteration.constraint_violation;
-      if (results.first().empty() && evaluator.design == iteration.x)
-        {
-          const auto &of_objective = evaluator.gradients.of_response.front();
-          if (!of_objective.reason.empty())
-            out << "auto takes " << to_text(of_objective.method)
-                << " for the objective: " << of_objective.reason << std::endl;
-          results.add_first(evaluator.states, of_objective.shape);
-        }
-      if (problem.scene.optimization.algorithm == optimization::Algorithm::SLSQP)
-        out << "initial trust region: nodes move by at most half the edge of a cell"
-            << (evaluator.is_predicted() ? "; contact pressures are predicted from derivatives"
-                                         : "")
-            << std::endl;
-      out << io::log_header() << std::endl;
-    }
+    report_first(iteration);
   io::HistoryLine line;
   line.iteration            = before + iteration.number;
   line.objective            = iteration.evaluation.objective;
@@ -100,19 +96,19 @@ void Search<dim>::report(const Iteration &iteration, const unsigned int before)
   line.scaled_jacobian      = iteration.evaluation.least_scaled_jacobian;
   line.seconds              = iteration.evaluation.seconds;
   line.design               = iteration.x;
-  out << io::log_line(line) << std::endl;
-  everywhere(problem.context.communicator(), [&]() {
+  log(io::log_line(line));
+  throw_collectively(problem.context.communicator(), [&]() {
     if (problem.context.rank() == 0)
-      books.history.add(line);
+      record.history.add(line);
   });
-  // a replay solves nothing that could be drawn
+  // A replay solves nothing that could be drawn.
   const unsigned int every = problem.scene.optimization.draw_every;
-  if (every > 0 && line.iteration > 0 && line.iteration % every == 0 &&
-      evaluator.design == iteration.x)
-    {
-      finish_first();
-      results.draw(line.iteration, evaluator.states, evaluator.gradients.of_response.front().shape);
-    }
+  if (every == 0 || line.iteration == 0 || line.iteration % every != 0 ||
+      !evaluator.last(iteration.x))
+    return;
+  finish_first();
+  if (const auto *analysis = evaluator.last(iteration.x))
+    results.draw(line.iteration, analysis->states, analysis->gradients.of_response.front().shape);
 }
 
 template <int dim>
@@ -122,20 +118,23 @@ void Search<dim>::finish_first()
     results.add_first(evaluator.first_states(), {});
 }
 
-/// With the pairing as it is.
+/// Minimize without a new contact search.
 template <int dim>
-OptimizationResult Search<dim>::run_paired(const std::vector<double> &start,
-                                           const OptimizationResult  &before,
-                                           const double               tolerance)
+OptimizationResult Search<dim>::run_with_pairing(const Design             &start,
+                                                 const OptimizationResult &before,
+                                                 const double              tolerance)
 {
   auto design_problem     = evaluator.design_problem(start);
-  design_problem.evaluate = [&](const std::vector<double> &x) {
+  design_problem.evaluate = [&](const Design &x) {
     check_interrupts(problem.context.communicator());
-    return evaluate(x);
+    problem.context.progress("solving the contact problem ...");
+    return evaluator.evaluate(x);
   };
-  // Interrupted, a search goes on to the end of its evaluation, and needs the gradient of its best.
-  design_problem.differentiate = [&](const std::vector<double> &x, optimization::Evaluation &at) {
-    differentiate(x, at);
+  // An interrupted search continues to the end of its evaluation, and needs the gradient of its
+  // best design.
+  design_problem.differentiate = [&](const Design &x, optimization::Evaluation &evaluation) {
+    evaluator.differentiate(x, evaluation);
+    warn_of_weak_contacts(x);
   };
   optimization::Hooks hooks;
   hooks.on_iteration = [&](const Iteration &i) { report(i, before.iterations); };
@@ -144,7 +143,7 @@ OptimizationResult Search<dim>::run_paired(const std::vector<double> &start,
   parameters.maximum_evaluations -= before.evaluations;
   parameters.objective_tolerance = std::max(parameters.objective_tolerance, tolerance);
 
-  auto result = optimization::minimize(books.journal.journaled(design_problem), parameters, hooks);
+  auto result = optimization::minimize(record.journal.journaled(design_problem), parameters, hooks);
   result.iterations += before.iterations;
   result.evaluations += before.evaluations;
   if (before.evaluations > 0)
@@ -152,10 +151,10 @@ OptimizationResult Search<dim>::run_paired(const std::vector<double> &start,
   return result;
 }
 
-/// Pair contact anew at the result of a search. @return false if slave
-/// nodes are where they were paired, or no other search may follow.
+/// Run a new contact search at the result of a search. Return false if slave nodes are where the
+/// last contact search found them, or no further search may follow.
 template <int dim>
-bool Search<dim>::pair_anew(const OptimizationResult &result)
+bool Search<dim>::update_pairing(const OptimizationResult &result)
 {
   const auto &most = problem.scene.optimization.maximum_evaluations;
   if (!result.success || result.evaluations >= most)
@@ -164,31 +163,30 @@ bool Search<dim>::pair_anew(const OptimizationResult &result)
   if (drift < unmoved)
     return false;
   finish_first();
-  problem.context.out() << "contact is paired anew: the design moved slave nodes off the "
-                           "points they were paired with by up to "
+  problem.context.out() << "new contact search: the design moved slave nodes away from their "
+                           "paired points by up to "
                         << drift << " of a face" << std::endl;
   evaluator.pair(result.x);
   return true;
 }
 
 template <int dim>
-OptimizationResult Search<dim>::run(const std::vector<double> &start,
-                                    const OptimizationResult  &before,
-                                    const double               tolerance)
+OptimizationResult
+Search<dim>::run(const Design &start, const OptimizationResult &before, const double tolerance)
 {
-  auto result = run_paired(start, before, tolerance);
-  // rows of B belong to a pairing: it changes between searches only
+  auto result = run_with_pairing(start, before, tolerance);
+  // The rows of B belong to a contact search, so a new one separates two searches.
   for (unsigned int round = 0; round < problem.scene.contact.update_pairing; ++round)
     {
-      if (!pair_anew(result))
+      if (!update_pairing(result))
         break;
-      result = run_paired(result.x, result, tolerance);
+      result = run_with_pairing(result.x, result, tolerance);
     }
   return result;
 }
 
-template struct Books<2>;
-template struct Books<3>;
+template struct SearchRecord<2>;
+template struct SearchRecord<3>;
 template class Search<2>;
 template class Search<3>;
 } // namespace snug::app

@@ -66,7 +66,7 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
   for (const auto &row : gradient.methods)
     if (row.method == to_text(chosen))
       static_cast<io::Summary::GradientRow &>(gradient) = row;
-  print_table(problem.context.out(), gradient.methods);
+  print_table(problem.context.out(Verbosity::quiet), gradient.methods);
 }
 
 template <int dim>
@@ -86,8 +86,8 @@ void Sensitivity<dim>::choose_method()
       .front();
   chosen          = choice.method;
   gradient.reason = choice.reason;
-  problem.context.out() << to_text(given) << " takes " << to_text(chosen) << ": " << choice.reason
-                        << std::endl;
+  problem.context.out() << "gradient method: " << to_text(chosen) << " (" << to_text(given) << "; "
+                        << choice.reason << ")" << std::endl;
 }
 
 template <int dim>

@@ -1,4 +1,4 @@
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/app/shape_problem.h>
 #include <snug/state/assumptions.h>
 
@@ -19,12 +19,12 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
     shape::BodyNames names;
     for (const auto &body : scene.bodies)
       names.names.push_back(body.name);
-    shapes = made_of(scene, [&]() {
+    shapes = with_file_context(scene, [&]() {
       return std::make_unique<shape::Shapes<dim>>(*mesh, names, scene.shapes);
     });
   }
   // contact is paired where the optimization starts, not at the reference
-  solver    = made_of(scene, [&]() {
+  solver    = with_file_context(scene, [&]() {
     return std::make_unique<state::StateSolver<dim>>(*mesh, tearing, build_model(scene, *mesh),
                                                         positions(shapes->start()), context);
   });
@@ -36,7 +36,7 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
 template <int dim>
 void ShapeProblem<dim>::check_overlaps() const
 {
-  made_of(scene, [&]() {
+  with_file_context(scene, [&]() {
     state::check_overlaps(solver->contact().pairs(), solver->contact().paired_gaps());
   });
 }
@@ -46,7 +46,7 @@ std::unique_ptr<response::Response<dim>>
 ShapeProblem<dim>::make_response(const std::string &name) const
 {
   auto response = response::make_response<dim>(*scene::response_called(scene, name));
-  made_of(scene, [&]() { response->check(*solver); });
+  with_file_context(scene, [&]() { response->check(*solver); });
   return response;
 }
 
@@ -57,22 +57,41 @@ ShapeProblem<dim>::solve(const Design &design, const std::vector<qp::WarmStart> 
   States     states;
   const auto x = positions(design);
   for (unsigned int c = 0; c < n_load_cases(); ++c)
-    states.push_back(made_of(scene, [&]() {
+    states.push_back(with_file_context(scene, [&]() {
       return solver->solve(x, starts.empty() ? qp::WarmStart() : starts[c], c);
     }));
   return states;
 }
 
 template <int dim>
-optimization::Combined ShapeProblem<dim>::combined_objective(const States &states)
+std::vector<double> ShapeProblem<dim>::objective_values(const States &states) const
 {
   std::vector<double> values;
   for (const auto &state : states)
     values.push_back(objective->value(*solver, state));
-  if (objective_scale == 0.)
-    for (unsigned int c = 0; c < values.size(); ++c)
-      objective_scale = std::max(objective_scale, std::abs(weight(c) * values[c]));
-  return combined(values);
+  return values;
+}
+
+/// Return the largest weighted magnitude of the values of the load cases.
+template <int dim>
+double ShapeProblem<dim>::scale(const std::vector<double> &values) const
+{
+  double largest = 0.;
+  for (unsigned int c = 0; c < values.size(); ++c)
+    largest = std::max(largest, std::abs(weight(c) * values[c]));
+  return largest;
+}
+
+template <int dim>
+void ShapeProblem<dim>::scale_objective(const States &states)
+{
+  objective_scale = scale(objective_values(states));
+}
+
+template <int dim>
+optimization::Combined ShapeProblem<dim>::combined_objective(const States &states) const
+{
+  return combined(objective_values(states));
 }
 
 template <int dim>
@@ -81,10 +100,11 @@ optimization::Combined ShapeProblem<dim>::combined(const std::vector<double> &va
   std::vector<double> weights;
   for (unsigned int c = 0; c < values.size(); ++c)
     weights.push_back(weight(c));
-  return optimization::combined(scene.optimization.combine, values, weights, objective_scale);
+  return optimization::combined(scene.optimization.combine, values, weights,
+                                objective_scale > 0. ? objective_scale : scale(values));
 }
 
-/// Of a load case in the objective.
+/// Return the weight of a load case in the objective.
 template <int dim>
 double ShapeProblem<dim>::weight(const unsigned int load_case) const
 {
@@ -111,7 +131,7 @@ double ShapeProblem<dim>::drift(const Design &design) const
 {
   const auto x       = solver->surface().gather(positions(design));
   double     largest = 0.;
-  for (const double drift : solver->contact().drifts(x, solver->contact().rows(x)))
+  for (const double drift : solver->contact().pairing_drifts(x, solver->contact().rows(x)))
     largest = std::max(largest, drift);
   return largest;
 }

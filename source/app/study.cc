@@ -1,7 +1,7 @@
 #include <snug/advice/cost.h>
 #include <snug/app/adaptation.h>
 #include <snug/app/interrupt.h>
-#include <snug/app/inventory.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
 #include <snug/app/sensitivity.h>
 #include <snug/app/study.h>
@@ -27,11 +27,11 @@ template <int dim>
 void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
 {
   const auto &errors = state.certificate;
-  out << "certificate";
+  out << "independent check";
   if (state.tolerance > qp::SolverParameters().relative_tolerance)
-    out << " of a solution to the relative tolerance " << state.tolerance << " only";
-  out << ": equilibrium " << errors.equilibrium << ", continuity " << errors.continuity
-      << ", penetration " << errors.penetration << ", negative pressure "
+    out << " of a solution with the relative tolerance " << state.tolerance;
+  out << ", relative errors: equilibrium " << errors.equilibrium << ", continuity "
+      << errors.continuity << ", penetration " << errors.penetration << ", negative pressure "
       << errors.negative_pressure << ", complementarity " << errors.complementarity << std::endl;
 }
 
@@ -50,25 +50,31 @@ std::string moment_text(const dealii::Tensor<1, 3> &moment)
 template <int dim>
 void print_state(std::ostream &out, const state::ContactState<dim> &state)
 {
-  out << "least scaled Jacobian of a cell " << state.least_scaled_jacobian << "\nenergy "
-      << state.energy << ", compliance " << state.compliance << ", strain energy "
-      << state.strain_energy << "\ncontact force (" << state.contact_force << "), area "
-      << state.contact_area << ", peak pressure " << state.max_pressure << ", "
-      << state.active_contacts << " active and " << state.weak_contacts << " weakly active of "
-      << state.contact.size() << " contact rows, distance to degeneracy "
-      << state.degeneracy_distance << '\n';
+  out << "potential energy " << state.energy << ", compliance " << state.compliance
+      << ", strain energy " << state.strain_energy << "\ncontact force (" << state.contact_force
+      << "), contact area " << state.contact_area << ", peak pressure " << state.max_pressure
+      << '\n';
+}
+
+template <int dim>
+void print_details(std::ostream &out, const state::ContactState<dim> &state)
+{
+  out << "active contacts: " << state.active_contacts << " of " << state.contact.size() << ", "
+      << state.weak_contacts << " weakly active, strict complementarity margin "
+      << state.degeneracy_distance << "\nminimum scaled Jacobian: " << state.least_scaled_jacobian
+      << '\n';
   for (const auto &pair : state.pairs)
-    out << "  on " << pair.name << ": force (" << pair.force << "), moment ("
+    out << "  contact " << pair.name << ": force (" << pair.force << "), moment ("
         << moment_text<dim>(pair.moment) << ") about (" << pair.centre << "), area "
         << pair.contact_area << ", peak pressure " << pair.max_pressure << " at (" << pair.peak
-        << ") on faces of " << pair.peak_size << ", " << pair.active_contacts << " active of "
-        << pair.rows << " rows\n";
+        << ") with face size " << pair.peak_size << ", active contacts " << pair.active_contacts
+        << " of " << pair.rows << '\n';
   for (const auto &reaction : state.reactions)
     out << "  support " << reaction.name << ": force (" << reaction.force << "), moment ("
         << moment_text<dim>(reaction.moment) << ") about (" << reaction.centre << ")\n";
-  out << "loads (" << state.load << "), with supports and obstacles (" << state.balance << ")\n";
-  out << state.dual.method << ": " << state.dual.outer_iterations << " outer iterations, "
-      << state.f_mults << " F-mults\n";
+  out << "sum of loads (" << state.load << "), including reactions (" << state.balance << ")\n";
+  out << state.dual.method << ": " << counted(state.dual.outer_iterations, "outer iteration")
+      << ", " << counted(state.f_mults, "F-mult") << '\n';
   print_certificate(out, state);
 }
 
@@ -77,7 +83,7 @@ void report(const ShapeProblem<dim>            &problem,
             Results<dim>                       &results,
             typename ShapeProblem<dim>::States &states)
 {
-  auto &out = problem.context.out();
+  auto &out = problem.context.out(Verbosity::quiet);
   for (auto &state : states)
     {
       if (problem.scene.report_linear_reference)
@@ -85,56 +91,18 @@ void report(const ShapeProblem<dim>            &problem,
       if (states.size() > 1)
         out << "load case " << problem.scene.load_cases[state.load_case].name << ": ";
       print_state(out, state);
+      print_details(problem.context.out(), state);
       for (const auto &[name, value] : results.response_values(state))
         out << name << ' ' << value << std::endl;
     }
   results.warn(states);
 }
 
-template <int dim>
-typename ShapeProblem<dim>::States solve_start(ShapeProblem<dim> &problem, Results<dim> &results)
-{
-  problem.context.progress("solving the contact problem ...");
-  auto states = problem.solve(problem.shapes->start());
-  report(problem, results, states);
-  return states;
-}
-
-template <int dim>
-void run_state(ShapeProblem<dim> &problem, Results<dim> &results, const bool advise)
-{
-  const auto states = solve_start(problem, results);
-  results.add_last(0., states);
-  if (advise)
-    results.advise(states);
-  results.write_summary();
-}
-
-template <int dim>
-void run_sensitivity(ShapeProblem<dim> &problem, Results<dim> &results)
-{
-  const auto             states = solve_start(problem, results);
-  const Sensitivity<dim> sensitivity(problem, results, states);
-  results.add_last(0., states, sensitivity.shape_gradient);
-  results.summary.gradient = sensitivity.gradient;
-  results.write_summary();
-}
-
-/// That of the scene and, if there are several, those of load cases.
-std::vector<std::string> output_directories(const scene::Scene &scene)
-{
-  std::vector<std::string> directories = {scene.output_directory};
-  if (scene.load_cases.size() > 1)
-    for (const auto &load_case : scene.load_cases)
-      directories.push_back(scene.output_directory + "/" + load_case.name);
-  return directories;
-}
-
 void prepare_output(const RunContext &context, const scene::Scene &scene)
 {
   for (const auto &directory : output_directories(scene))
     io::make_output_directory(context, directory);
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     std::ostringstream text;
     scene::print(scene, text);
     if (context.rank() == 0)
@@ -148,12 +116,12 @@ void print_estimate(RunContext         &context,
                     unsigned int        ranks,
                     const bool          stages)
 {
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     if (context.rank() == 0)
-      made_of(scene, [&]() {
+      with_file_context(scene, [&]() {
         print(advice::estimate_cost(scene, ranks > 0 ? ranks : context.n_ranks(),
                                     advice::machine_speed()),
-              stages, context.out());
+              stages, context.out(stages ? Verbosity::quiet : Verbosity::normal));
       });
   });
 }
@@ -163,19 +131,19 @@ void validate_in(RunContext &context, const scene::Scene &scene)
 {
   auto mesh = timed_mesh<dim>(context, scene);
   print_import_notes(scene, context.out());
-  print(take_inventory(scene, *mesh), context.out());
+  print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   for (const auto &line : unrefined(scene, *mesh))
-    context.out() << "warning: " << line << '\n';
+    context.warn(line);
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
   for (const auto &line : state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
                                                    problem.solver->contact().pairs()))
-    context.out() << "warning: " << line << '\n';
+    context.warn(line);
   problem.check_overlaps();
   const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.
   for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
-    made_of(scene, [&]() {
-      everywhere(context.communicator(), [&]() { problem.solver->loads(positions, c); });
+    with_file_context(scene, [&]() {
+      throw_collectively(context.communicator(), [&]() { problem.solver->loads(positions, c); });
     });
 }
 
@@ -185,81 +153,75 @@ void print_program(RunContext &context)
   context.out() << "Snug " << info.version << ", deal.II " << info.dealii << ", PETSc "
                 << info.petsc << ", BLAS " << info.blas << std::endl;
   if (!io::blas_warning(info).empty())
-    context.out() << "warning: " << io::blas_warning(info) << std::endl;
+    context.warn(io::blas_warning(info));
 }
 
-/// A state on the mesh that its targets ask for. @return why they are not met; empty: they are.
+/// Analyse the initial design on the mesh of the scene, or on a mesh that meets the targets, and
+/// differentiate there if the task asks for it. Return why the targets are not met; empty: they
+/// are. Collective.
 template <int dim>
-std::string run_adapted(RunContext &context, const scene::Scene &scene)
+std::string analyse(RunContext &context, const scene::Scene &scene, const bool advise)
 {
-  Adaptation<dim> adaptation(context, scene);
-  io::remove_results(context, output_directories(scene));
-  const auto   complaint = adaptation.settle();
-  Results<dim> results(adaptation.problem());
-  results.summary.task     = to_text(scene.task);
-  results.summary.accuracy = adaptation.summary;
-  results.print_work();
-  results.print_header();
-  report(adaptation.problem(), results, adaptation.states());
-  // responses that are no targets are estimated if all are asked for
-  results.add_last(0., adaptation.states(), {},
-                   scene.accuracy.estimate == accuracy::Estimate::responses
-                     ? std::vector<MeshError>()
-                     : adaptation.errors());
-  results.write_summary();
-  return complaint;
-}
-
-/// A design on the meshes that its targets ask for.
-template <int dim>
-std::string run_adapted_search(RunContext &context, const scene::Scene &scene, const bool restart)
-{
-  if (!restart)
-    io::remove_results(context, output_directories(scene));
-  return optimize_to_targets<dim>(context, scene, restart);
-}
-
-template <int dim>
-std::string run_given(RunContext &context, const scene::Scene &scene, const Options &options)
-{
-  print_estimate(context, scene, 0, false);
-  ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
-  problem.check_overlaps();
-  if (!options.restart)
-    io::remove_results(context, output_directories(scene));
-  Results<dim> results(problem);
-  results.summary.task = to_text(scene.task);
-  results.print_header();
-  std::string complaint;
-  switch (options.advise ? scene::Task::state : scene.task)
+  const bool          has_targets = !scene.accuracy.targets.empty();
+  Adaptation<dim>     adaptation(context, scene);
+  AdaptedProblem<dim> adapted;
+  std::string         failure_reason;
+  if (has_targets)
     {
-      case scene::Task::state:
-        run_state(problem, results, options.advise);
-        break;
-      case scene::Task::sensitivity:
-        run_sensitivity(problem, results);
-        break;
-      case scene::Task::optimize:
-        catch_interrupts();
-        complaint = optimize(problem, results, options.restart);
-        break;
+      adaptation.start();
+      remove_earlier_results(context, scene);
+      failure_reason = adaptation.settle();
+      adapted        = adaptation.release();
     }
-  return complaint;
+  else
+    {
+      adapted.problem =
+        std::make_unique<ShapeProblem<dim>>(context, scene, timed_mesh<dim>(context, scene));
+      adapted.problem->check_overlaps();
+      remove_earlier_results(context, scene);
+    }
+  auto        &problem = *adapted.problem;
+  auto        &states  = adapted.states;
+  Results<dim> results(problem);
+  if (has_targets)
+    {
+      results.summary.accuracy = adaptation.summary;
+      results.print_work();
+    }
+  results.print_header();
+  if (!has_targets)
+    {
+      context.progress("solving the contact problem ...");
+      states = problem.solve(problem.shapes->start());
+    }
+  report(problem, results, states);
+  std::optional<typename ShapeProblem<dim>::Field> shape_gradient;
+  if (scene.task == scene::Task::sensitivity && !advise)
+    {
+      const Sensitivity<dim> sensitivity(problem, results, states);
+      shape_gradient           = sensitivity.shape_gradient;
+      results.summary.gradient = sensitivity.gradient;
+    }
+  // Responses that are no targets are estimated if the estimates of all responses are asked for.
+  const bool all_errors = scene.accuracy.estimate == accuracy::Estimate::responses;
+  results.add_last(0., states, shape_gradient,
+                   all_errors ? std::vector<MeshError>() : adapted.errors);
+  if (advise)
+    results.advise(states);
+  results.write_summary();
+  return failure_reason;
 }
 
-/// Of the largest rank, stage by stage. Collective.
+/// Print the peak memory of the largest rank and its memory after each stage. Collective.
 void print_memory(RunContext &context)
 {
   const auto memory = io::collect_memory(context);
-  context.out() << "memory " << std::round(memory.largest) << " MB";
-  const char *separator = "; without what ranks share, at the ";
+  context.out() << "peak memory: " << std::round(memory.largest) << " MB" << std::endl;
+  auto &out = context.out(Verbosity::debug);
+  out << "private memory after each stage [MB]:";
   for (const auto &[stage, used] : memory.stages)
-    {
-      context.out() << separator << (stage == "start" ? "" : "end of ") << stage << " "
-                    << std::round(used);
-      separator = ", ";
-    }
-  context.out() << std::endl;
+    out << ' ' << stage << ' ' << std::round(used);
+  out << std::endl;
 }
 
 template <int dim>
@@ -267,25 +229,23 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
 {
   prepare_output(context, scene);
   print_program(context);
-  std::string complaint;
   if (scene.accuracy.targets.empty())
-    complaint = run_given<dim>(context, scene, options);
-  else if (scene.task == scene::Task::optimize)
-    complaint = run_adapted_search<dim>(context, scene, options.restart);
-  else
-    complaint = run_adapted<dim>(context, scene);
+    print_estimate(context, scene, 0, false);
+  const auto failure_reason = scene.task == scene::Task::optimize && !options.advise
+                                ? optimize<dim>(context, scene, options.restart)
+                                : analyse<dim>(context, scene, options.advise);
   print_memory(context);
-  context.out() << "results in " << scene.output_directory << ", " << context.seconds() << " s"
-                << std::endl;
-  if (!complaint.empty())
-    throw SolveError(complaint);
+  context.out(Verbosity::quiet) << "results in " << scene.output_directory << ", "
+                                << context.seconds() << " s" << std::endl;
+  if (!failure_reason.empty())
+    throw SolveError(failure_reason);
 }
 
 /// A misspelt one would not show otherwise.
 void warn_of_unused_petsc_options(RunContext &context)
 {
   for (const auto &option : petsc::unused_options(context.communicator()))
-    context.out() << "warning: PETSc option " << option << " was not used" << std::endl;
+    context.warn("PETSc option " + option + " was not used");
 }
 
 /// OpenBLAS takes its buffer at the first call that needs one, and tries for ever where there
@@ -311,7 +271,7 @@ void run_study(RunContext &context, const scene::Scene &given, const Options &op
         scene.output_directory += "/advice"; // the results of runs stay
     }
   if (options.restart && scene.task != scene::Task::optimize)
-    throw InputError(scene.file + ": option '--restart' goes on with an " +
+    throw InputError(scene.file + ": option '--restart' continues an " +
                      "optimization, but 'Task' = " + to_text(scene.task));
   if (scene.dimension == 2)
     run_task<2>(context, scene, options);
@@ -337,13 +297,14 @@ int run(const Options &options)
     {options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
      options.sets, options.output,
      [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
+  context.set_verbosity(scene.output.verbosity);
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
     print_estimate(context, scene, options.ranks, true);
   else if (options.validate)
     {
       validate(context, scene);
-      context.out() << options.file << " is valid" << std::endl;
+      context.out(Verbosity::quiet) << options.file << " is valid" << std::endl;
     }
   else
     run_study(context, scene, options);

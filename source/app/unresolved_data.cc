@@ -31,14 +31,13 @@ void Adaptation<dim>::resolve_data()
   const RunContext::Timer timer(context, "setup");
   while (true)
     {
-      const auto               with  = scene_with(refined);
-      const auto               mesh  = build_mesh<dim>(with, context.communicator());
+      const auto               mesh  = build_mesh(scene, forest_with(refined), false);
       auto                     cells = refined;
       std::vector<std::string> names;
       for (const auto &body : scene.bodies)
         names.push_back(body.name);
-      const auto found = made_of(scene, [&]() {
-        return accuracy::unresolved_data(*mesh, build_load_cases(with, *mesh), names,
+      const auto found = with_file_context(scene, [&]() {
+        return accuracy::unresolved_data(*mesh, build_load_cases(scene, *mesh), names,
                                          missed_loads(scene));
       });
       add(found.cells, cells);
@@ -48,7 +47,7 @@ void Adaptation<dim>::resolve_data()
           continue;
         }
       for (const auto &line : found.lines)
-        context.out() << "warning: " << line << std::endl;
+        context.warn(line);
       return;
     }
 }

@@ -15,7 +15,8 @@ constexpr double cheap_unknowns = 1e4;
 constexpr unsigned int most_finer = 3;
 } // namespace
 
-/// What is left of the error of a mesh when all cells are refined is 4^-p of it.
+/// Check the targets on a mesh with all cells refined once. Its error is assumed to be 4^-p of the
+/// error of the mesh before.
 template <int dim>
 std::string Adaptation<dim>::verify()
 {
@@ -25,17 +26,17 @@ std::string Adaptation<dim>::verify()
   add(mesh::all_cells(*solved->problem->mesh), cells);
   auto mesh = matched_mesh(cells);
   if (!fits(*mesh))
-    return "the finer mesh that verifies has " + std::to_string(unknowns(*mesh)) +
+    return "the mesh for verification has " + std::to_string(unknowns(*mesh)) +
            " unknowns; increase 'Maximum unknowns', or set 'Verify' to false";
   std::unique_ptr<Stage> fine;
   try
     {
-      fine = solve_next(std::move(mesh), cells);
+      fine = solve_next(std::move(mesh));
     }
   catch (const SolveError &error)
     {
       const std::string text =
-        std::string("the finer mesh that verifies cannot be solved: ") + error.what();
+        std::string("the analysis on the mesh for verification failed: ") + error.what();
       if (scene.accuracy.verify)
         return text;
       context.out() << text << std::endl;
@@ -54,7 +55,7 @@ std::string Adaptation<dim>::verify()
       if (error > most)
         missed += (missed.empty() ? "" : ", ") + text;
       else
-        context.out() << "verified by " << unknowns(*fine->problem->mesh) << " unknowns: " << text
+        context.out() << "verified with " << unknowns(*fine->problem->mesh) << " unknowns: " << text
                       << std::endl;
       summary.verified.push_back({demands[d].name, value, error});
       finer_is_enough = finer_is_enough && rest * error <= most;
@@ -64,7 +65,7 @@ std::string Adaptation<dim>::verify()
   summary.met = false;
   finer       = cells;
   finer_stage = std::move(fine);
-  return "the finer mesh says " + missed + ": the target is missed; ask for less";
+  return "verification failed on the finer mesh (" + missed + "): relax 'Target'";
 }
 
 /// Without an entry, where it takes no longer than the meshes before.
@@ -98,7 +99,7 @@ std::string Adaptation<dim>::settle()
       refused = verify();
       if (refused.empty() || !finer_stage || n == most_finer)
         return refused;
-      context.out() << refused.substr(0, refused.find(':')) << ": the next mesh" << std::endl;
+      context.out() << refused.substr(0, refused.find(':')) << ": refining further" << std::endl;
       refined = finer;
       solved  = std::move(finer_stage);
     }

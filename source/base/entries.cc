@@ -31,7 +31,7 @@ void assign(const Entries::Description &entry, const Origins &origins, const std
 
 /// Return the error of the numbers of an entry; "" if there is no error.
 std::string
-complaint(const Form &form, const std::vector<double> &numbers, const unsigned int dimension)
+failure_reason(const Form &form, const std::vector<double> &numbers, const unsigned int dimension)
 {
   // Limit of numbers, such that sums of squares of products of two numbers do not overflow.
   const double largest = 1e60;
@@ -42,7 +42,7 @@ complaint(const Form &form, const std::vector<double> &numbers, const unsigned i
       if (form.contains && !form.contains(number))
         return form.range;
       if (std::abs(number) > largest)
-        return "must be at most " + to_text(largest) + " in size";
+        return "must be at most " + to_text(largest) + " in absolute value";
     }
   return "";
 }
@@ -62,10 +62,15 @@ Form choice(const Names &names)
     {
       form.choices.push_back(name);
       if (!meaning.empty())
-        form.explained += (form.explained.empty() ? " " : "; ") + name + ": " + meaning;
+        form.meanings.push_back({name, meaning});
     }
-  form.explained += form.explained.empty() ? "" : ".";
   form.allowed = (form.choices.size() > 1 ? "one of " : "") + to_text(form.choices);
+  return form;
+}
+
+Form with_meanings(Form form, const Names &meanings)
+{
+  form.meanings = meanings;
   return form;
 }
 
@@ -120,8 +125,7 @@ void Entries::add(const std::string &name,
                   const Form        &form,
                   const std::string &meaning)
 {
-  list.push_back(
-    {section_list.back().name, name, access.text(), form, meaning + form.explained, access});
+  list.push_back({section_list.back().name, name, access.text(), form, meaning, access});
 }
 
 void Entries::set(const Statement &statement)
@@ -144,7 +148,7 @@ void Entries::check(const Origins &origins, const unsigned int dimension) const
       assign(entry, origins, text);
       if (!entry.access.numbers)
         continue;
-      const auto wrong = complaint(entry.form, entry.access.numbers(), dimension);
+      const auto wrong = failure_reason(entry.form, entry.access.numbers(), dimension);
       if (!wrong.empty())
         throw origins.error(entry.path(), text, wrong);
     }

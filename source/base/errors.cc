@@ -16,7 +16,7 @@ std::string one_line(const std::exception &error)
 {
   std::ostringstream text;
   if (is_out_of_memory(error))
-    text << "out of memory: take a coarser mesh, or spread the ranks over more machines";
+    text << "out of memory: use a coarser mesh, or distribute the ranks over more machines";
   else if (const auto *banner = dynamic_cast<const dealii::ExceptionBase *>(&error))
     banner->print_info(text);
   else

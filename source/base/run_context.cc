@@ -65,17 +65,24 @@ RunContext::RunContext(MPI_Comm communicator, std::ostream &out)
   live_line = my_rank == 0 && &out == &std::cout && isatty(STDOUT_FILENO) && !under_launcher();
 }
 
-std::ostream &RunContext::out()
+std::ostream &RunContext::out(const Verbosity level)
 {
+  if (level > verbosity)
+    return null_stream();
   if (live_line_shown)
     *stream << "\r\033[K";
   live_line_shown = false;
   return *stream;
 }
 
+void RunContext::warn(const std::string &text)
+{
+  out(Verbosity::quiet) << "warning: " << text << std::endl;
+}
+
 void RunContext::progress(const std::string &text)
 {
-  if (!live_line)
+  if (!live_line || verbosity == Verbosity::quiet)
     return;
   *stream << "\r\033[K" << text << std::flush;
   live_line_shown = true;
@@ -167,7 +174,7 @@ Kind kind_of(const std::exception &error)
 }
 } // namespace
 
-void everywhere(MPI_Comm communicator, const std::function<void()> &work)
+void throw_collectively(MPI_Comm communicator, const std::function<void()> &work)
 {
   int         kind = none;
   std::string message;

@@ -51,7 +51,7 @@ shared_work(MPI_Comm                                                communicator
   MPI_Comm_size(communicator, &n_ranks);
   const auto                       first = shares(costs, n_ranks);
   std::vector<std::vector<double>> results(costs.size());
-  everywhere(communicator, [&]() {
+  throw_collectively(communicator, [&]() {
     for (unsigned int i = first[rank]; i < first[rank + 1]; ++i)
       results[i] = compute(i);
   });

@@ -91,7 +91,7 @@ public:
       return;
     // Reject a zero byte, because messages, which quote the text, would end there.
     if (line.find('\0') != std::string::npos)
-      throw InputError(place + ": holds a byte that is zero; is it a text file?");
+      throw InputError(place + ": contains a null byte; not a text file");
     if (begins_with(line, "subsection", rest) && !rest.empty())
       {
         sections.push_back(tidy(rest));

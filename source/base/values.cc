@@ -65,6 +65,12 @@ std::vector<std::string> vector_components(const std::string &text)
   return parts.size() > 1 ? parts : components(text);
 }
 
+std::string counted(const std::size_t n, const std::string &noun, const std::string &plural)
+{
+  const std::string several = plural.empty() ? noun + "s" : plural;
+  return std::to_string(n) + " " + (n == 1 ? noun : several);
+}
+
 std::string to_text(const double value)
 {
   char       buffer[32];

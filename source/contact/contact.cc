@@ -36,13 +36,13 @@ double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &norm
 /// Shift the row indices: groups number their own rows, but rows of Contact count through all
 /// groups.
 template <int dim>
-void Contact<dim>::collect_shared_nodes()
+void Contact<dim>::collect_dependent_multipliers()
 {
   shared.clear();
   unsigned int first = 0;
   for (const Group &group : groups)
     {
-      for (SharedNode &node : group.rows->shared_nodes())
+      for (DependentMultiplier &node : group.rows->dependent_multipliers())
         {
           for (auto &row : node.rows)
             row.first += first;
@@ -197,9 +197,9 @@ Contact<dim>::point_gaps(const unsigned int                p,
 }
 
 template <int dim>
-std::vector<double> Contact<dim>::slips(const Field                 &positions,
-                                        const std::vector<Row<dim>> &rows,
-                                        const Field                 &displacement) const
+std::vector<double> Contact<dim>::tangential_slips(const Field                 &positions,
+                                                   const std::vector<Row<dim>> &rows,
+                                                   const Field                 &displacement) const
 {
   const auto          sizes = node_face_sizes(surface, positions);
   std::vector<double> result;
@@ -210,8 +210,8 @@ std::vector<double> Contact<dim>::slips(const Field                 &positions,
 }
 
 template <int dim>
-std::vector<double> Contact<dim>::drifts(const Field                 &positions,
-                                         const std::vector<Row<dim>> &rows) const
+std::vector<double> Contact<dim>::pairing_drifts(const Field                 &positions,
+                                                 const std::vector<Row<dim>> &rows) const
 {
   const auto          sizes = node_face_sizes(surface, positions);
   std::vector<double> result;
@@ -220,7 +220,7 @@ std::vector<double> Contact<dim>::drifts(const Field                 &positions,
       const auto offset             = slave_minus_master(rows[i], positions);
       const auto &[pair, slave, of] = row_places[i];
       const auto &off_face          = rows[i].off_face;
-      // Where the foot follows the node, the offset is along the normal, except for fixed
+      // Where the foot point follows the node, the offset is along the normal, except for fixed
       // coordinates.
       const auto moved = off_face ? offset : offset - paired_offsets[i];
       // The closest point on an obstacle follows the node, so the node cannot drift off this point.

@@ -8,22 +8,24 @@ namespace snug::contact {
 void ObstacleParameters::declare(Entries &entries)
 {
   const Form vector = per_dimension({}, "finite numbers separated by commas");
-  entries.add("Shape", shape, choice(names(obstacle_table<3>())), "What it fills.");
+  entries.add("Shape", shape, choice(names(obstacle_table<3>())), "The shape of the obstacle.");
   entries.add("Point", point, vector,
-              "On the plane, centre of the sphere, on the axis of the cylinder, or origin of the "
-              "formula [length]; empty: 0.");
+              "A point of the plane, the centre of the sphere, a point of the cylinder's axis, or "
+              "the origin of the formula. Units: length. An empty list means the origin.");
   entries.add("Normal", normal, vector,
-              "Of a plane, out of the obstacle, of any length; empty: along the last axis.");
+              "The normal of a plane, pointing out of the obstacle, of any length. An empty list "
+              "means the last axis.");
   entries.add("Axis", axis, vector,
-              "Of a cylinder, or direction of the formula's last coordinate, of any length; empty: "
-              "the last axis.");
-  entries.add("Radius", radius, above(0.), "Of a sphere or cylinder [length].");
+              "The axis of a cylinder, or the direction of the formula's last coordinate, of any "
+              "length. An empty list means the last axis.");
+  entries.add("Radius", radius, above(0.), "The radius of a sphere or a cylinder. Units: length.");
   entries.add(
     "Formula", formula, allowed("a formula of x, y and, in 3D, z"),
-    "Negative inside of the obstacle, positive outside, smooth on the scale of elements.");
+    "The formula that is negative inside the obstacle, positive outside, and smooth on the scale "
+    "of the elements.");
   entries.add("Displacement", displacement, vector,
-              "How far the obstacle moves from where it is placed [length]; contacts keep the "
-              "normals of the place. Empty: 0.");
+              "The translation of the obstacle as a load. Contacts keep the normals at the initial "
+              "position. Units: length. An empty list means no translation.");
 }
 
 void ObstacleParameters::complete(const unsigned int dimension)
@@ -54,28 +56,29 @@ void ObstacleParameters::check(const SectionCheck &section) const
 void PairParameters::declare(Entries &entries)
 {
   entries.add("Method", method,
-              choice_or_auto<Method>("nodal where every slave node within the search distance lies "
-                                     "opposite to a master node, within 1 % of a face, else "
-                                     "mortar"),
-              "How two faces meet.");
+              choice_or_auto<Method>(
+                "nodal if every slave node within the search distance matches a "
+                "master node within 1 % of a face, else mortar"),
+              "The contact discretization of two faces.");
+  entries.add("Slave", slave,
+              "The side whose nodes carry the contact pressure and must not penetrate the other "
+              "side.");
   entries.add(
-    "Slave", slave,
-    "Whose nodes carry the contact pressure and must not penetrate the other face. finer: that of "
-    "the smaller faces on average, but of mortar contact that of the larger if the ratio of "
-    "their sizes times that of Young's moduli, stiffer over softer, is above 1.5; first: the one "
-    "that is named first, as also for meshes within a tenth.");
-  entries.add("Search distance", search_distance, at_least(0., "must be 0 or above"),
-              "Slave nodes farther from the master at the first design carry no contact row "
-              "[length]; 0: any distance.");
+    "Search distance", search_distance, at_least(0., "must be 0 or above"),
+    "The maximum distance from the master side in the first design. Slave nodes beyond it "
+    "are excluded from contact. Units: length. A value of 0 means any distance.");
   entries.add(
     "Largest angle", largest_angle, above(0., 180.),
-    "Between the slave's normal and the direction into the master at the first design [degrees]; "
-    "slave nodes beyond carry no contact row. Mortar: between faces, at most 60.");
+    "The maximum angle between the slave's normal and the direction into the master in the "
+    "first design. Slave nodes beyond it are excluded from contact. For mortar it is the "
+    "angle between faces, at most 60. Units: degrees.");
   entries.add("Gap", gap, allowed("a formula of x, y and, in 3D, z"),
-              "Added to the gap at each slave node [length].");
+              "The length that is added to the gap at each slave node. Units: length.");
   entries.add("Interference", interference,
-              "true: the sides may overlap at first, as in a shrink fit. false: a deep overlap "
-              "gives a warning, one of more than two faces an error.");
+              with_meanings({}, {{"true", "an initial overlap is intended, as in a shrink fit"},
+                                 {"false", "a deep initial overlap causes a warning, an overlap of "
+                                           "more than two faces an error"}}),
+              "Whether the sides may overlap initially.");
 }
 
 void PairParameters::check(const SectionCheck &section) const
@@ -107,15 +110,15 @@ void ContactParameters::declare(Entries &entries)
   entries.add("Pairs", {[names]() { return to_text(names()); }, read},
               allowed(
                 "a list 'body.boundary: body.boundary, ...' or 'body.boundary: obstacle, ...'"),
-              "Pairs of faces, or of a face and an obstacle, separated by commas: 'punch.bottom: "
-              "foundation.top'. A side may name several boundaries of a body: 'punch.nose + "
-              "punch.fillet: groove.floor + groove.wall'. Pairs whose boundaries continue each "
-              "other smoothly on both sides are one contact, and each reports its share.");
+              "The pairs of faces, or of a face and an obstacle: 'punch.bottom: foundation.top'. A "
+              "side may have several boundaries: 'punch.nose + punch.fillet: groove.floor + "
+              "groove.wall'. Pairs whose boundaries are smooth continuations on both sides are "
+              "joined to one contact.");
   entries.add(
     "Update pairing", update_pairing,
-    "How often an optimization that has met its tolerance goes on with contact paired "
-    "anew at the design it found; it ends before if slave nodes are where they were "
-    "paired. Within a search each node stays paired with one face, in which it may move.");
+    "The maximum number of new contact searches after convergence of an optimization, each "
+    "followed by a further optimization. Fewer are done if no slave node has moved along "
+    "the master. During an optimization each slave node stays paired with one face.");
   defaults.declare(entries);
 }
 } // namespace snug::contact

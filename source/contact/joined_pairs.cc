@@ -157,7 +157,7 @@ unsigned int JoinedPair::pair_of(const Boundary &slave, const Boundary &master) 
   return found == parts.end() ? parts.front().pair : found->pair;
 }
 
-void JoinedPair::exchange_sides()
+void JoinedPair::swap_slave_master()
 {
   exchange(pair);
   for (Part &part : parts)

@@ -44,7 +44,7 @@ bool is_positive_definite(const dealii::SymmetricTensor<2, dim> &a)
 /// Newton's method are y and the multiplier m. At the solution m |grad phi| = n . (x - y) is the
 /// signed distance.
 template <int dim>
-struct LevelSet<dim>::Foot
+struct LevelSet<dim>::ClosestPoint
 {
   dealii::Point<dim>     y;
   double                 m = 0.;
@@ -69,7 +69,7 @@ struct LevelSet<dim>::Foot
 };
 
 template <int dim>
-bool LevelSet<dim>::Foot::invert()
+bool LevelSet<dim>::ClosestPoint::invert()
 {
   const double length = gradient.norm();
   if (!(length > 0.) || !std::isfinite(length))
@@ -106,32 +106,32 @@ LevelSet<dim>::LevelSet(const ObstacleParameters &parameters, double element_siz
 {}
 
 template <int dim>
-void LevelSet<dim>::evaluate(Foot &foot) const
+void LevelSet<dim>::evaluate(ClosestPoint &closest) const
 {
   // The formula depends on coordinates rotated to Axis, so its derivatives are rotated back.
-  const dealii::Point<dim> local(transpose(rotation) * (foot.y - origin));
-  foot.value    = formula.value(local);
-  foot.gradient = rotation * formula.gradient(local, step);
-  foot.hessian  = rotation * formula.hessian(local, step) * transpose(rotation);
+  const dealii::Point<dim> local(transpose(rotation) * (closest.y - origin));
+  closest.value    = formula.value(local);
+  closest.gradient = rotation * formula.gradient(local, step);
+  closest.hessian  = rotation * formula.hessian(local, step) * transpose(rotation);
 }
 
 /// Move y along the gradient to within a tenth of an element of phi = 0. The result is the initial
 /// guess of Newton's method. Return whether this distance is reached.
 template <int dim>
-bool LevelSet<dim>::descend(const dealii::Point<dim> &x, Foot &foot) const
+bool LevelSet<dim>::descend(const dealii::Point<dim> &x, ClosestPoint &closest) const
 {
-  foot.y = x;
+  closest.y = x;
   for (unsigned int i = 0; i < 50; ++i)
     {
-      evaluate(foot);
-      const double square = foot.gradient.norm_square();
+      evaluate(closest);
+      const double square = closest.gradient.norm_square();
       if (!(square > 0.) || !std::isfinite(square))
         return false;
       // Make a Newton step for phi = 0 along the gradient.
-      const dealii::Tensor<1, dim> move = -foot.value / square * foot.gradient;
-      foot.y += move;
+      const dealii::Tensor<1, dim> move = -closest.value / square * closest.gradient;
+      closest.y += move;
       // Take m from y - x + m grad phi = 0 in the direction of the gradient.
-      foot.m = (x - foot.y) * foot.gradient / square;
+      closest.m = (x - closest.y) * closest.gradient / square;
       if (move.norm() < 0.1 * size)
         return true;
     }
@@ -139,39 +139,40 @@ bool LevelSet<dim>::descend(const dealii::Point<dim> &x, Foot &foot) const
 }
 
 template <int dim>
-std::optional<typename LevelSet<dim>::Foot> LevelSet<dim>::foot(const dealii::Point<dim> &x) const
+std::optional<typename LevelSet<dim>::ClosestPoint>
+LevelSet<dim>::closest_point(const dealii::Point<dim> &x) const
 {
-  Foot foot;
-  if (!descend(x, foot))
+  ClosestPoint closest;
+  if (!descend(x, closest))
     return std::nullopt;
   bool close = false;
   for (unsigned int i = 0; i < 30; ++i)
     {
-      evaluate(foot);
+      evaluate(closest);
       // Check every iterate, because the matrix of Newton's method has to be regular and to lead to
       // a minimum.
-      if (!foot.invert())
+      if (!closest.invert())
         return std::nullopt;
       // Return only after another evaluation, because distance() takes the gradient and the Hessian
-      // at the foot.
+      // at the closest point.
       if (close)
-        return foot;
+        return closest;
       // The matrix contains the unit normal in place of the gradient, so the residual and the
       // multiplier are scaled by the length of the gradient.
-      const double           length = foot.gradient.norm();
-      const auto             rest   = foot.y - x + foot.m * foot.gradient;
+      const double           length = closest.gradient.norm();
+      const auto             rest   = closest.y - x + closest.m * closest.gradient;
       dealii::Tensor<1, dim> move;
       double                 dm = 0.;
       for (unsigned int k = 0; k < dim; ++k)
         {
           for (unsigned int l = 0; l < dim; ++l)
-            move[k] -= foot.inverse(k, l) * rest[l];
-          move[k] -= foot.inverse(k, dim) * foot.value / length;
-          dm -= foot.inverse(dim, k) * rest[k];
+            move[k] -= closest.inverse(k, l) * rest[l];
+          move[k] -= closest.inverse(k, dim) * closest.value / length;
+          dm -= closest.inverse(dim, k) * rest[k];
         }
-      dm -= foot.inverse(dim, dim) * foot.value / length;
-      foot.y += move;
-      foot.m += dm / length;
+      dm -= closest.inverse(dim, dim) * closest.value / length;
+      closest.y += move;
+      closest.m += dm / length;
       // Convergence is quadratic, so the next error is below round-off.
       close = move.norm() < 1e-9 * size;
     }
@@ -181,7 +182,7 @@ std::optional<typename LevelSet<dim>::Foot> LevelSet<dim>::foot(const dealii::Po
 template <int dim>
 std::optional<ObstacleDistance<dim>> LevelSet<dim>::distance(const dealii::Point<dim> &x) const
 {
-  const auto found = foot(x);
+  const auto found = closest_point(x);
   if (!found)
     return std::nullopt;
   const double                 length = found->gradient.norm();

@@ -1,7 +1,7 @@
 #include <snug/contact/matching.h>
 #include <snug/contact/nearest_face.h>
 #include <snug/contact/projection.h>
-#include <snug/contact/supported_normals.h>
+#include <snug/faces/nodal_normals.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -25,11 +25,11 @@ double offset_across(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, di
 template <int dim>
 Matching matching(const PairGeometry<dim> &pair)
 {
-  const auto           &x = pair.positions;
-  const Opposition<dim> opposition(pair);
-  using Normals = SupportedNormals<dim>;
-  const Normals of_slave(pair.surface, pair.sides.slave, pair.shape, x, pair.held);
-  const Normals of_master(pair.surface, pair.sides.master, pair.shape, x, pair.held);
+  const auto               &x = pair.positions;
+  const SearchCriteria<dim> criteria(pair);
+  using Normals = faces::NodalNormals<dim>;
+  const Normals of_slave(pair.surface, pair.sides.slave, pair.shape, x, &pair.held);
+  const Normals of_master(pair.surface, pair.sides.master, pair.shape, x, &pair.held);
   Matching      result;
   for (const Projection<dim> &projection :
        project(pair.surface, pair.sides, pair.shape, x, of_master.normals()))
@@ -42,7 +42,7 @@ Matching matching(const PairGeometry<dim> &pair)
           into_slave += master.second * of_master.normals()[master.first];
         }
       const double distance = (point - x[projection.slave]).norm();
-      if (!opposition.is_near(distance))
+      if (!criteria.is_near(distance))
         continue;
       double nearest = std::numeric_limits<double>::max();
       for (const unsigned int node : pair.surface.faces()[projection.face].nodes)

@@ -49,8 +49,8 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
   for (unsigned int node = 0; node < is_held.size(); ++node)
     is_held[node] =
       pair.taken[node] || faces::free_part(normals.normals()[node], held[node]).norm() < held_part;
-  const auto x     = mortar::node_arrays<dim>(pair.positions);
-  const auto parts = all_integrals<double>(x);
+  const Points<double> x(pair.positions);
+  const auto           parts = all_integrals(x);
   const auto boxes = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
     const auto          box = cover_box(faces[f], x);
     std::vector<double> ends(box.lower.begin(), box.lower.end());
@@ -95,13 +95,13 @@ mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                   
 
 /// Return the box that contains the covered part of the face.
 template <int dim>
-mortar::CoverBox<dim> MortarRows<dim>::cover_box(const SlaveFace                      &face,
-                                                 const mortar::FaceNodes<dim, double> &x) const
+mortar::CoverBox<dim> MortarRows<dim>::cover_box(const SlaveFace      &face,
+                                                 const Points<double> &x) const
 {
   mortar::CoverBox<dim> box;
-  const auto            slave = mortar::mortar_face<dim>(surface, shape, face.face, x).nodes;
+  const auto            slave = mortar::mortar_face(surface, shape, face.face, x).nodes;
   for (const unsigned int master : face.masters)
-    quadrature.add_cover(slave, mortar::mortar_face<dim>(surface, shape, master, x).nodes, box);
+    quadrature.add_cover(slave, mortar::mortar_face(surface, shape, master, x).nodes, box);
   return box;
 }
 
@@ -154,7 +154,7 @@ void MortarRows<dim>::collect_row_nodes()
 template <int dim>
 void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
 {
-  const Opposition<dim>         opposition(pair);
+  const SearchCriteria<dim>     criteria(pair);
   const auto                    all           = rows(pair.positions);
   const mortar::MultiplierNodes old           = multipliers;
   const auto                    old_row_nodes = row_nodes;
@@ -163,7 +163,7 @@ void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
   row_nodes.clear();
   for (unsigned int i = 0; i < all.size(); ++i)
     // Check the gap alone, because the angles of faces were checked when they were paired.
-    if (opposition.is_near(all[i].gap))
+    if (criteria.is_near(all[i].gap))
       {
         index[i] = row_nodes.size();
         multipliers.nodes.push_back(old.nodes[i]);

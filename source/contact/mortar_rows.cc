@@ -2,20 +2,30 @@
 #include <snug/base/narrow.h>
 #include <snug/base/shared_work.h>
 #include <snug/contact/mortar_rows.h>
+#include <snug/contact/row_derivatives.h>
+#include <snug/mortar/moment_correction.h>
 
 #include <cmath>
 
 namespace snug::contact {
 template <int dim>
 template <typename Number>
-mortar::FaceIntegrals<Number>
-MortarRows<dim>::integrals(const SlaveFace &face, const mortar::FaceNodes<dim, Number> &x) const
+std::vector<mortar::MortarFace<dim, Number>> MortarRows<dim>::masters(const SlaveFace      &face,
+                                                                      const Points<Number> &x) const
 {
-  std::vector<mortar::MortarFace<dim, Number>> masters;
+  std::vector<mortar::MortarFace<dim, Number>> result;
   for (const unsigned int master : face.masters)
-    masters.push_back(mortar::mortar_face<dim>(surface, shape, master, x));
-  return mortar::integrate<dim>(quadrature, mortar::mortar_face<dim>(surface, shape, face.face, x),
-                                masters);
+    result.push_back(mortar::mortar_face(surface, shape, master, x));
+  return result;
+}
+
+template <int dim>
+template <typename Number>
+mortar::FaceIntegrals<Number> MortarRows<dim>::integrals(const SlaveFace      &face,
+                                                         const Points<Number> &x) const
+{
+  return mortar::integrate<dim>(quadrature, mortar::mortar_face(surface, shape, face.face, x),
+                                masters(face, x));
 }
 
 /// Return the costs of the slave faces, because cutting a pair of faces takes most of the time.
@@ -31,7 +41,7 @@ std::vector<double> MortarRows<dim>::costs() const
 template <int dim>
 template <typename Number>
 std::vector<mortar::FaceIntegrals<Number>>
-MortarRows<dim>::all_integrals(const mortar::FaceNodes<dim, Number> &x) const
+MortarRows<dim>::all_integrals(const Points<Number> &x) const
 {
   const auto numbers = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
     return mortar::to_numbers(integrals(faces[f], x));
@@ -44,55 +54,57 @@ MortarRows<dim>::all_integrals(const mortar::FaceNodes<dim, Number> &x) const
   return result;
 }
 
-/// Add the parts of rows that are integrals over one slave face.
 template <int dim>
-template <typename Number>
-void MortarRows<dim>::add_face(const SlaveFace                      &face,
-                               const mortar::FaceIntegrals<Number>  &of_shapes,
-                               const mortar::FaceNodes<dim, Number> &x,
-                               std::vector<RowSum<Number>>          &sums) const
+template <typename Number, typename Add>
+void MortarRows<dim>::for_each_part(const SlaveFace                     &face,
+                                    const mortar::FaceIntegrals<Number> &of_shapes,
+                                    const Points<Number>                &x,
+                                    const dealii::Tensor<1, dim>        &origin,
+                                    const Add                           &add) const
 {
   const auto  coupling = mortar::couple(of_shapes, face.functions);
   const auto &nodes    = surface.faces()[face.face].nodes;
   // Add int psi_j N at one node of a face to the coefficient and to the gap.
-  const auto add = [&](unsigned int j, unsigned int node, const Number &integral) {
-    for (const auto &share : multipliers.shares[nodes[j]])
+  const auto add_node = [&](unsigned int j, unsigned int node, const Number &integral) {
+    const dealii::Tensor<1, dim, Number> place = x[node] - origin;
+    for (const auto &[row, share] : multipliers.shares[nodes[j]])
       {
-        RowSum<Number> &sum    = sums[share.first];
-        const Number    shared = share.second * integral;
-        for_each_place(share.first, node, [&](unsigned int place, double weight) {
-          sum.coefficients[place] += weight * shared;
+        const Number shared = share * integral;
+        for_each_place(row, node, [&](unsigned int place_in_row, double weight) {
+          add(row, weight * shared,
+              [&](auto &sum) -> auto & { return sum.coefficients[place_in_row]; });
         });
         for (int d = 0; d < dim; ++d)
           // Hanging nodes enter the gap at their own position, because the gap is that between the
           // actual faces. The coefficients of hanging nodes went to their masters.
-          sum.offset[d] -= shared * x[node][d];
+          add(row, -(shared * place[d]), [&](auto &sum) -> auto & { return sum.offset[d]; });
       }
   };
   for (unsigned int j = 0; j < nodes.size(); ++j)
     {
-      for (const auto &share : multipliers.shares[nodes[j]])
+      for (const auto &[row, share] : multipliers.shares[nodes[j]])
         {
-          sums[share.first].area += share.second * coupling.multiplier[j];
+          add(row, share * coupling.multiplier[j], [](auto &sum) -> auto & { return sum.area; });
           for (int d = 0; d < dim; ++d)
-            sums[share.first].offset[d] += share.second * coupling.multiplier_offset(j, d);
+            add(row, share * coupling.multiplier_offset(j, d),
+                [&](auto &sum) -> auto & { return sum.offset[d]; });
         }
       for (unsigned int l = 0; l < nodes.size(); ++l)
         // The other integrals are zero up to round-off, and the row may not contain their nodes.
         if (!face.functions.are_nodal() || l == j)
-          add(j, nodes[l], coupling.multiplier_slave(j, l));
+          add_node(j, nodes[l], coupling.multiplier_slave(j, l));
       for (unsigned int f = 0; f < face.masters.size(); ++f)
         {
           const auto &master = surface.faces()[face.masters[f]].nodes;
           for (unsigned int k = 0; k < master.size(); ++k)
             {
-              add(j, master[k], -coupling.multiplier_master[f](j, k));
+              add_node(j, master[k], -coupling.multiplier_master[f](j, k));
               for (const auto &share : multipliers.shares[nodes[j]])
                 for_each_place(share.first, master[k], [&](unsigned int place, double weight) {
                   // Absolute values are needed, because weights and shares of hanging nodes of
                   // degree 2 may be negative.
-                  sums[share.first].weights[place] +=
-                    std::abs(weight * share.second) * of_shapes.weights[f](j, k);
+                  add(share.first, std::abs(weight * share.second) * of_shapes.weights[f](j, k),
+                      [&](auto &sum) -> auto & { return sum.weights[place]; });
                 });
             }
         }
@@ -102,17 +114,17 @@ void MortarRows<dim>::add_face(const SlaveFace                      &face,
 template <int dim>
 template <typename Number>
 std::vector<typename MortarRows<dim>::template RowSum<Number>>
-MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
+MortarRows<dim>::row_sums(const Points<Number> &x) const
 {
-  std::vector<RowSum<Number>> sums(row_nodes.size());
-  for (unsigned int i = 0; i < sums.size(); ++i)
-    {
-      sums[i].coefficients.resize(row_nodes[i].size());
-      sums[i].weights.resize(row_nodes[i].size());
-    }
-  const auto parts = all_integrals<Number>(x);
+  std::vector<RowSum<Number>> sums;
+  for (const auto &nodes : row_nodes)
+    sums.emplace_back(nodes.size());
+  const auto parts = all_integrals(x);
   for (unsigned int f = 0; f < faces.size(); ++f)
-    add_face(faces[f], parts[f], x, sums);
+    for_each_part(faces[f], parts[f], x, {},
+                  [&](unsigned int row, const Number &part, const auto &entry) {
+                    entry(sums[row]) += part;
+                  });
   for (const auto &sum : sums)
     // The area must be positive, because the row is divided by it.
     if (!(faces::value_of(sum.area) > 0.))
@@ -123,30 +135,35 @@ MortarRows<dim>::row_sums(const mortar::FaceNodes<dim, Number> &x) const
 
 template <int dim>
 template <typename Number>
-mortar::MomentCorrection<dim, Number>
-MortarRows<dim>::correction(unsigned int                          i,
-                            const RowSum<Number>                 &sum,
-                            const mortar::FaceNodes<dim, Number> &x,
-                            const std::array<Number, dim>        &n) const
+Row<dim, Number> MortarRows<dim>::row(const unsigned int    i,
+                                      const RowSum<Number> &sum,
+                                      const Points<Number> &x,
+                                      const Points<Number> &n) const
 {
-  mortar::FaceNodes<dim, Number> relative;
+  const unsigned int                          slave = multipliers.nodes[i];
+  std::vector<dealii::Tensor<1, dim, Number>> relative;
   for (const unsigned int node : row_nodes[i])
-    {
-      relative.push_back(x[node]);
-      for (int d = 0; d < dim; ++d)
-        relative.back()[d] -= x[multipliers.nodes[i]][d];
-    }
-  return {relative, sum.coefficients, sum.weights, n};
+    relative.push_back(x[node] - x[slave]);
+  Row<dim, Number> result;
+  result.normal = n[slave];
+  for (int d = 0; d < dim; ++d)
+    result.gap += result.normal[d] * sum.offset[d] / sum.area;
+  const auto masses =
+    mortar::moment_correction(relative, sum.coefficients, sum.weights, result.normal);
+  for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
+    result.coefficients.emplace_back(row_nodes[i][k],
+                                     (sum.coefficients[k] - masses[k]) / sum.area * result.normal);
+  return result;
 }
 
 /// Leave out hanging nodes, because they have no unknowns on which a force could act.
 template <int dim>
-std::vector<SharedNode> MortarRows<dim>::shared_nodes() const
+std::vector<DependentMultiplier> MortarRows<dim>::dependent_multipliers() const
 {
   std::vector<bool> own(surface.n_nodes(), false);
   for (const unsigned int node : multipliers.nodes)
     own[node] = true;
-  std::vector<SharedNode> result;
+  std::vector<DependentMultiplier> result;
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     if (!own[node] && surface.masters(node).empty() && !multipliers.shares[node].empty())
       result.push_back({node, multipliers.shares[node]});
@@ -156,55 +173,28 @@ std::vector<SharedNode> MortarRows<dim>::shared_nodes() const
 template <int dim>
 std::vector<Row<dim>> MortarRows<dim>::rows(const Field &positions) const
 {
-  const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
-  const auto                  x    = mortar::node_arrays<dim>(positions);
-  const auto                  n    = mortar::node_arrays<dim>(normals.normals());
-  const auto                  sums = row_sums<double>(x);
-  std::vector<Row<dim>>       result(sums.size());
+  const faces::NodalNormals<dim> normals(surface, sides.slave, shape, positions, &held);
+  const Points<double>           x(positions), n(normals.normals());
+  const auto                     sums = row_sums(x);
+  std::vector<Row<dim>>          result;
   for (unsigned int i = 0; i < sums.size(); ++i)
-    {
-      Row<dim> &row = result[i];
-      row.normal    = normals.normals()[multipliers.nodes[i]];
-      for (int d = 0; d < dim; ++d)
-        row.gap += row.normal[d] * sums[i].offset[d] / sums[i].area;
-      const auto corrected = correction(i, sums[i], x, n[multipliers.nodes[i]]);
-      for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
-        row.coefficients.emplace_back(row_nodes[i][k],
-                                      (sums[i].coefficients[k] - corrected.masses()[k]) /
-                                        sums[i].area * row.normal);
-    }
+    result.push_back(row(i, sums[i], x, n));
   return result;
 }
 
+/// One pass over the segments gives values and derivatives, which are exact through cuts and
+/// projections.
 template <int dim>
 std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
                                                        const Field &velocity) const
 {
-  const SupportedNormals<dim> normals(surface, sides.slave, shape, positions, held);
-  const Field                 normal_slopes = normals.derivative(velocity);
-  // One pass over the segments gives values and derivatives, which are exact through cuts and
-  // projections.
-  const auto            x          = mortar::node_arrays<dim>(positions, velocity);
-  const auto            with_slope = mortar::node_arrays<dim>(normals.normals(), normal_slopes);
-  const auto            sums       = row_sums<faces::Differential<1>>(x);
-  std::vector<Row<dim>> result(sums.size());
+  const faces::NodalNormals<dim>       normals(surface, sides.slave, shape, positions, &held);
+  const Field                          slopes = normals.derivative(velocity);
+  const Points<faces::Differential<1>> x(positions, velocity), n(normals.normals(), slopes);
+  const auto                           sums = row_sums(x);
+  std::vector<Row<dim>>                result;
   for (unsigned int i = 0; i < sums.size(); ++i)
-    {
-      const auto &n   = normals.normals()[multipliers.nodes[i]];
-      Row<dim>   &row = result[i];
-      row.normal      = normal_slopes[multipliers.nodes[i]];
-      for (int d = 0; d < dim; ++d)
-        {
-          const auto mean = sums[i].offset[d] / sums[i].area;
-          row.gap += row.normal[d] * mean.value + n[d] * mean.slope[0];
-        }
-      const auto corrected = correction(i, sums[i], x, with_slope[multipliers.nodes[i]]);
-      for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
-        {
-          const auto c = (sums[i].coefficients[k] - corrected.masses()[k]) / sums[i].area;
-          row.coefficients.emplace_back(row_nodes[i][k], c.value * row.normal + c.slope[0] * n);
-        }
-    }
+    result.push_back(derivative_of(row(i, sums[i], x, n)));
   return result;
 }
 
@@ -212,23 +202,141 @@ template <int dim>
 std::vector<double> MortarRows<dim>::areas(const Field &positions) const
 {
   std::vector<double> result;
-  for (const auto &sum : row_sums<double>(mortar::node_arrays<dim>(positions)))
+  for (const auto &sum : row_sums(Points<double>(positions)))
     result.push_back(sum.area);
   return result;
+}
+
+/// Record one row at a time, as a function of its sum, positions and normals.
+template <int dim>
+std::vector<typename MortarRows<dim>::template RowSum<double>>
+MortarRows<dim>::add_sum_derivatives(const Field               &positions,
+                                     const Field               &normals,
+                                     const Field               &displacement,
+                                     const std::vector<double> &forces,
+                                     Field                     &gradient,
+                                     Field                     &normal_gradient) const
+{
+  auto             sums = row_sums(Points<double>(positions));
+  faces::Recording recording;
+  for (unsigned int i = 0; i < sums.size(); ++i)
+    {
+      if (forces[i] == 0.)
+        {
+          sums[i] = RowSum<double>(row_nodes[i].size());
+          continue;
+        }
+      recording.clear();
+      const Points<faces::Recorded> x(positions, recording), n(normals, recording);
+      RowSum<faces::Recorded>       sum(row_nodes[i].size());
+      const auto                    for_each_number = [&](const auto &visit) {
+        for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
+          {
+            visit(sum.coefficients[k], sums[i].coefficients[k]);
+            visit(sum.weights[k], sums[i].weights[k]);
+          }
+        for (int d = 0; d < dim; ++d)
+          visit(sum.offset[d], sums[i].offset[d]);
+        visit(sum.area, sums[i].area);
+      };
+      for_each_number(
+        [&](auto &variable, const double value) { variable = recording.variable(value); });
+      add_energy_derivatives(row(i, sum, x, n), displacement, forces[i], recording);
+      recording.sweep();
+      x.add_derivatives(gradient);
+      n.add_derivatives(normal_gradient);
+      for_each_number(
+        [&](const auto &variable, double &slope) { slope = recording.derivative(variable); });
+    }
+  return sums;
+}
+
+template <int dim>
+void MortarRows<dim>::add_energy_gradient(const Field               &positions,
+                                          const Field               &displacement,
+                                          const std::vector<double> &forces,
+                                          Field                     &gradient) const
+{
+  const faces::NodalNormals<dim> normals(surface, sides.slave, shape, positions, &held);
+  Field                          normal_gradient(surface.n_nodes());
+  const auto slopes = add_sum_derivatives(positions, normals.normals(), displacement, forces,
+                                          gradient, normal_gradient);
+  normals.add_transpose(normal_gradient, gradient);
+  for (const SlaveFace &face : faces)
+    add_face_gradient(face, slopes, positions, gradient);
+}
+
+template <int dim>
+void MortarRows<dim>::add_area_gradient(const Field               &positions,
+                                        const std::vector<double> &factors,
+                                        Field                     &gradient) const
+{
+  AssertDimension(factors.size(), multipliers.nodes.size());
+  std::vector<RowSum<double>> slopes;
+  for (unsigned int i = 0; i < factors.size(); ++i)
+    {
+      slopes.emplace_back(row_nodes[i].size());
+      slopes.back().area = factors[i];
+    }
+  for (const SlaveFace &face : faces)
+    add_face_gradient(face, slopes, positions, gradient);
+}
+
+/// Add the derivatives with respect to the positions of one slave face and its masters. First the
+/// sums are recorded as functions of the integrals and positions, then the integrals.
+template <int dim>
+void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
+                                        const std::vector<RowSum<double>> &slopes,
+                                        const Field                       &positions,
+                                        Field                             &gradient) const
+{
+  const auto &nodes = surface.faces()[face.face].nodes;
+  // Skip open faces, which are most of the slave side, because cutting segments is expensive.
+  const bool counts = std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
+    const auto &shares = multipliers.shares[node];
+    return std::any_of(shares.begin(), shares.end(), [&](const auto &share) {
+      const auto &slope = slopes[share.first];
+      return slope.area != 0. || slope.offset.norm_square() > 0.;
+    });
+  });
+  if (!counts)
+    return;
+
+  auto       of_shapes = integrals(face, Points<double>(positions));
+  const auto n         = narrow<unsigned int>(nodes.size());
+  const auto n_masters = narrow<unsigned int>(face.masters.size());
+  {
+    faces::Recording              recording;
+    const Points<faces::Recorded> x(positions, recording);
+    auto variables = mortar::zero_integrals<dim, faces::Recorded>(n, n_masters);
+    auto values    = mortar::to_numbers(of_shapes);
+    auto next      = values.begin();
+    mortar::for_each_number(variables, [&](auto &number) { number = recording.variable(*next++); });
+    // The integrals of psi_j (1 - 1) vanish, so positions may be measured from any origin.
+    for_each_part(face, variables, x, positions[nodes[0]],
+                  [&](unsigned int row, const faces::Recorded &part, const auto &entry) {
+                    recording.add(part, entry(slopes[row]));
+                  });
+    recording.sweep();
+    x.add_derivatives(gradient);
+    next = values.begin();
+    mortar::for_each_number(variables,
+                            [&](auto &number) { *next++ = recording.derivative(number); });
+    of_shapes = mortar::from_numbers<dim, double>(n, n_masters, values.begin());
+  }
+  faces::Recording              recording;
+  const Points<faces::Recorded> x(positions, recording);
+  mortar::add_integral_derivatives(quadrature, mortar::mortar_face(surface, shape, face.face, x),
+                                   masters(face, x), of_shapes, recording);
+  recording.sweep();
+  x.add_derivatives(gradient);
 }
 
 template class MortarRows<2>;
 template class MortarRows<3>;
 #define SNUG_INSTANTIATE(dim)                                                         \
   template std::vector<mortar::FaceIntegrals<double>> MortarRows<dim>::all_integrals( \
-    const mortar::FaceNodes<dim, double> &) const;                                    \
-  template mortar::FaceIntegrals<double> MortarRows<dim>::integrals(                  \
-    const SlaveFace &, const mortar::FaceNodes<dim, double> &) const;                 \
-  template std::vector<MortarRows<dim>::RowSum<double>> MortarRows<dim>::row_sums(    \
-    const mortar::FaceNodes<dim, double> &) const;                                    \
-  template mortar::MomentCorrection<dim, double> MortarRows<dim>::correction(         \
-    unsigned int, const RowSum<double> &, const mortar::FaceNodes<dim, double> &,     \
-    const std::array<double, dim> &) const;
+    const Points<double> &) const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

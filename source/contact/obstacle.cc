@@ -89,18 +89,19 @@ template <int dim>
 const ChoiceTable<Make<dim>> &obstacle_table()
 {
   static const ChoiceTable<Make<dim>> table = {
-    {"plane", "all that lies behind the plane through Point with Normal",
+    {"plane", "half-space behind the plane through 'Point' with 'Normal'",
      [](const ObstacleParameters &parameters, double) {
        return std::make_unique<Plane<dim>>(to_point<dim>(parameters.point),
                                            to_point<dim>(parameters.normal));
      }},
-    round<dim>("sphere", "about Point with Radius", false, false),
-    round<dim>("hollow sphere", "all that lies outside of the sphere", false, true),
-    round<dim>("cylinder", "about the Axis through Point with Radius; in 2D a circle", true, false),
-    round<dim>("hollow cylinder", "all that lies outside of the cylinder", true, true),
+    round<dim>("sphere", "sphere about 'Point' with 'Radius'", false, false),
+    round<dim>("hollow sphere", "space outside the sphere", false, true),
+    round<dim>("cylinder", "cylinder about 'Axis' through 'Point' with 'Radius'; in 2D a circle",
+               true, false),
+    round<dim>("hollow cylinder", "space outside the cylinder", true, true),
     {"formula",
-     "where Formula is negative, with Point as origin and Axis as last "
-     "coordinate direction",
+     "space where 'Formula' is negative, with 'Point' as origin and 'Axis' as last coordinate "
+     "direction",
      [](const ObstacleParameters &parameters, double element_size) {
        return std::make_unique<LevelSet<dim>>(parameters, element_size);
      },

@@ -1,117 +1,62 @@
 #include <snug/base/errors.h>
+#include <snug/contact/node_rows.h>
 #include <snug/contact/pair_rows.h>
-#include <snug/faces/tributary.h>
 
 #include <sstream>
 
 namespace snug::contact {
 namespace {
+/// The formula of rows against an obstacle for NodeRows.
 template <int dim>
-class ObstacleRows : public RowGroup<dim>
+class ObstacleRow
 {
 public:
-  using Field = typename RowGroup<dim>::Field;
-
-  explicit ObstacleRows(const PairGeometry<dim> &pair)
-    : surface(pair.surface)
-    , shape(pair.shape)
-    , obstacle(choose(obstacle_table<dim>(), pair.pair.obstacle->shape)
+  explicit ObstacleRow(const PairGeometry<dim> &pair)
+    : obstacle(choose(obstacle_table<dim>(), pair.pair.obstacle->shape)
                  .make(*pair.pair.obstacle, pair.slave_size()))
     , shift(to_point<dim>(pair.pair.obstacle->displacement))
-    , slave_faces(pair.sides.slave)
   {
-    const Opposition<dim> opposition(pair);
-    std::vector<bool>     visited = pair.taken;
-    for (const unsigned int face : slave_faces)
-      for (const unsigned int node : surface.faces()[face].nodes)
+    const SearchCriteria<dim> criteria(pair);
+    std::vector<bool>         visited = pair.taken;
+    for (const unsigned int face : pair.sides.slave)
+      for (const unsigned int node : pair.surface.faces()[face].nodes)
         {
           // Hanging nodes follow their masters, which have rows. Nodes in `taken` have a row in
           // another pair with the same obstacle.
-          if (visited[node] || !surface.masters(node).empty())
+          if (visited[node] || !pair.surface.masters(node).empty())
             continue;
           visited[node] = true;
           const auto d  = obstacle->distance(dealii::Point<dim>(pair.positions[node]));
-          if (!d || !opposition.holds(node, d->value, -d->gradient))
+          if (!d || !criteria.are_met(node, d->value, -d->gradient))
             continue;
           // A row of a node without an area would hold the node, but show no pressure.
           const bool has_area =
-            !faces::is_without_area(surface, shape.degree(), pair.positions[node]);
-          (has_area ? slave_nodes : idle).push_back(node);
+            !faces::is_without_area(pair.surface, pair.shape.degree(), pair.positions[node]);
+          (has_area ? nodes.with_rows : nodes.zero_area).push_back(node);
         }
   }
 
-  const std::vector<unsigned int> &slaves() const override { return slave_nodes; }
+  SlaveNodes nodes;
 
-  std::vector<SharedNode> shared_nodes() const override
+  template <typename Number>
+  Row<dim, Number> row(const unsigned int                    i,
+                       const faces::PointField<dim, Number> &positions,
+                       const faces::PointField<dim, Number> & /*normals*/) const
   {
-    return shared_on_axis(surface, slave_faces, slave_nodes, idle);
-  }
-
-  std::vector<Row<dim>> rows(const Field &positions) const override
-  {
-    std::vector<Row<dim>> result;
-    for (const unsigned int slave : slave_nodes)
-      {
-        const auto                   d = distance(positions[slave]);
-        const dealii::Tensor<1, dim> n = -d.gradient;
-        // The row is n . (u - w) <= d(x): contact with the obstacle moved by w uses the normal at
-        // the place of the obstacle before.
-        result.push_back({{{slave, n}}, d.value + n * shift, n});
-      }
-    return result;
-  }
-
-  std::vector<Row<dim>> row_derivatives(const Field &positions,
-                                        const Field &velocity) const override
-  {
-    std::vector<Row<dim>> result;
-    for (const unsigned int slave : slave_nodes)
-      {
-        const auto d = distance(positions[slave]);
-        // n = -grad d
-        const dealii::Tensor<1, dim> dn   = -1. * (d.hessian * velocity[slave]);
-        const double                 dgap = d.gradient * velocity[slave] + dn * shift;
-        result.push_back({{{slave, dn}}, dgap, dn});
-      }
-    return result;
-  }
-
-  void add_energy_gradient(const Field               &positions,
-                           const Field               &displacement,
-                           const std::vector<double> &forces,
-                           Field                     &gradient) const override
-  {
-    AssertDimension(forces.size(), slave_nodes.size());
-    for (unsigned int i = 0; i < slave_nodes.size(); ++i)
-      {
-        const unsigned int slave = slave_nodes[i];
-        const auto         d     = distance(positions[slave]);
-        // Differentiate n . (u - w) - d with n = -grad d at x: the derivative of n is -H, and that
-        // of d is grad d.
-        gradient[slave] -= forces[i] * (d.hessian * (displacement[slave] - shift) + d.gradient);
-      }
-  }
-
-  std::vector<double> areas(const Field &positions) const override
-  {
-    return faces::tributary_areas<dim>({surface, slave_faces, shape}, slave_nodes, positions);
-  }
-
-  void add_area_gradient(const Field               &positions,
-                         const std::vector<double> &factors,
-                         Field                     &gradient) const override
-  {
-    faces::add_tributary_gradient<dim>({surface, slave_faces, shape}, slave_nodes, positions,
-                                       factors, gradient);
+    const unsigned int                   slave = nodes.with_rows[i];
+    const auto                           d     = distance(positions.values()[slave]);
+    const dealii::Tensor<1, dim, Number> dx    = positions[slave] - positions.values()[slave];
+    // Value and gradient at x with their first derivatives; the value of dx is 0.
+    const Number                         value = d.value + d.gradient * dx;
+    const dealii::Tensor<1, dim, Number> n     = -(d.gradient + d.hessian * dx);
+    // The row is n . (u - w) <= d(x): contact with the obstacle moved by w uses the normal at the
+    // place of the obstacle before.
+    return {{{slave, n}}, value + n * shift, n};
   }
 
 private:
-  const mesh::Surface<dim>      &surface;
-  const faces::FaceShape<dim>   &shape;
   std::unique_ptr<Obstacle<dim>> obstacle;
   dealii::Tensor<1, dim>         shift; ///< w
-  std::vector<unsigned int>      slave_faces, slave_nodes;
-  std::vector<unsigned int> idle; ///< slave nodes opposite to the obstacle, but without an area
 
   ObstacleDistance<dim> distance(const dealii::Tensor<1, dim> &x) const
   {
@@ -128,7 +73,7 @@ private:
 template <int dim>
 std::unique_ptr<RowGroup<dim>> obstacle_rows(const PairGeometry<dim> &pair)
 {
-  return std::make_unique<ObstacleRows<dim>>(pair);
+  return std::make_unique<NodeRows<dim, ObstacleRow<dim>>>(pair);
 }
 
 template std::unique_ptr<RowGroup<2>> obstacle_rows(const PairGeometry<2> &);

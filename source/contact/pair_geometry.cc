@@ -76,24 +76,24 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
   std::vector<double> sizes(surface.n_nodes(), 0.);
   for (const auto &face : surface.faces())
     for (const unsigned int node : face.nodes)
-      // Take the largest face, because slips and drifts are compared with what the mesh resolves at
-      // the node.
+      // Take the largest face, because tangential slips and pairing drifts are compared with what
+      // the mesh resolves at the node.
       sizes[node] = std::max(sizes[node], face_size<dim>(face.nodes, positions));
   return sizes;
 }
 
 template <int dim>
-std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
-                                       const std::vector<unsigned int> &faces,
-                                       const std::vector<unsigned int> &slaves,
-                                       const std::vector<unsigned int> &idle)
+std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim>        &surface,
+                                                   const std::vector<unsigned int> &faces,
+                                                   const std::vector<unsigned int> &slaves,
+                                                   const std::vector<unsigned int> &zero_area_nodes)
 {
   std::map<unsigned int, unsigned int> rows_of;
   for (unsigned int i = 0; i < slaves.size(); ++i)
     rows_of[slaves[i]] = i;
-  std::vector<SharedNode> result;
+  std::vector<DependentMultiplier> result;
   for (const unsigned int f : faces)
-    for (const unsigned int node : idle)
+    for (const unsigned int node : zero_area_nodes)
       {
         auto nodes = surface.faces()[f].nodes;
         if (nodes.back() == node)
@@ -106,7 +106,7 @@ std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
 }
 
 template <int dim>
-Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
+SearchCriteria<dim>::SearchCriteria(const PairGeometry<dim> &pair)
   : normals(faces::NodalNormals<dim>(pair.surface, pair.sides.slave, pair.shape, pair.positions)
               .normals())
 {
@@ -118,20 +118,20 @@ Opposition<dim>::Opposition(const PairGeometry<dim> &pair)
   least_cosine     = std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) - round_off;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                   \
-  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);        \
-  template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
-                                 const mesh::Surface<dim>::Field &);                            \
-  template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,        \
-                              const Side &);                                                    \
-  template std::vector<double>     node_face_sizes(const mesh::Surface<dim> &,                  \
-                                                   const mesh::Surface<dim>::Field &);          \
-  template std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim> &,                   \
-                                                  const std::vector<unsigned int> &,            \
-                                                  const std::vector<unsigned int> &,            \
-                                                  const std::vector<unsigned int> &);           \
-  template struct PairGeometry<dim>;                                                            \
-  template class Opposition<dim>;
+#define SNUG_INSTANTIATE(dim)                                                                     \
+  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);          \
+  template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &,   \
+                                 const mesh::Surface<dim>::Field &);                              \
+  template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,          \
+                              const Side &);                                                      \
+  template std::vector<double>              node_face_sizes(const mesh::Surface<dim> &,           \
+                                                            const mesh::Surface<dim>::Field &);   \
+  template std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim> &,         \
+                                                              const std::vector<unsigned int> &,  \
+                                                              const std::vector<unsigned int> &,  \
+                                                              const std::vector<unsigned int> &); \
+  template struct PairGeometry<dim>;                                                              \
+  template class SearchCriteria<dim>;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

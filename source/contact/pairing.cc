@@ -19,11 +19,11 @@ const double finer_by = 0.1;
 const double alike = 1.5;
 
 /// Return whether the master of a mortar pair is too coarse for its slave. @p size is the size of
-/// the master's faces over that of the slave's, and @p contrast is the ratio of the moduli, the
-/// stiffer over the softer.
-bool asks_too_much(const double size, const double contrast)
+/// the master's faces over that of the slave's, and @p modulus_ratio is the ratio of the moduli,
+/// the stiffer over the softer.
+bool prefers_coarse_slave(const double size, const double modulus_ratio)
 {
-  return size > 1. / (1. - finer_by) && size * contrast > alike;
+  return size > 1. / (1. - finer_by) && size * modulus_ratio > alike;
 }
 
 /// Return the faces of both sides of a pair. The master side of an obstacle is empty.
@@ -96,7 +96,7 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
         return exchanged.count(part.pair) > 0;
       });
       const auto exchange = [&]() {
-        of.exchange_sides();
+        of.swap_slave_master();
         is_exchanged = !is_exchanged;
       };
       if (known != of.parts.end() && exchanged[known->pair])
@@ -112,7 +112,7 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
       if (!pair.parameters.method)
         pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
       if (may_exchange && pair.parameters.method == Method::mortar &&
-          asks_too_much(relative_size(surface, positions, pair), pair.contrast))
+          prefers_coarse_slave(relative_size(surface, positions, pair), pair.modulus_ratio))
         exchange();
       if (!pair.obstacle)
         matching_of.back().finer = relative_size(surface, positions, pair);
@@ -151,7 +151,7 @@ void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirectio
       row_places.push_back({p, slave});
   share_rows(positions, held);
   check_named_pairs();
-  collect_shared_nodes();
+  collect_dependent_multipliers();
   measure_pairing(positions);
 }
 

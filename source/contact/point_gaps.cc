@@ -17,38 +17,38 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
       return;
     }
   master_faces = pair.sides.master;
-  normals      = std::make_unique<SupportedNormals<dim>>(pair.surface, master_faces, pair.shape,
-                                                         positions, pair.held);
+  normals      = std::make_unique<faces::NodalNormals<dim>>(pair.surface, master_faces, pair.shape,
+                                                            positions, &pair.held);
   projector    = std::make_unique<Projector<dim>>(pair.surface, master_faces, pair.shape, positions,
                                                   normals->normals());
   if (parameters.method == Method::mortar)
     {
       slave_faces   = pair.sides.slave;
-      slave_normals = std::make_unique<SupportedNormals<dim>>(pair.surface, slave_faces, pair.shape,
-                                                              positions, pair.held);
+      slave_normals = std::make_unique<faces::NodalNormals<dim>>(pair.surface, slave_faces,
+                                                                 pair.shape, positions, &pair.held);
     }
 }
 
 template <int dim>
 PointGaps<dim>::~PointGaps() = default;
 
-/// Return the position of @p foot on the true surface of the master.
+/// Return the point of the master's true surface over the foot point.
 template <int dim>
-dealii::Tensor<1, dim> PointGaps<dim>::place(const PointProjection<dim> &foot) const
+dealii::Tensor<1, dim> PointGaps<dim>::place(const PointProjection<dim> &projection) const
 {
   dealii::Tensor<1, dim> y;
-  for (const auto &[point, weight] : foot.surface)
+  for (const auto &[point, weight] : projection.surface)
     y += weight * positions[point];
   return y;
 }
 
-/// Return the foot of @p x along the slave's normal. Each step moves the point along the slave's
-/// normal to the height of the foot and projects it along the master's normals. A step multiplies
-/// the error by the square of the angle between the two normals.
+/// Return the projection of @p x along the slave's normal. Each step moves the point along the
+/// slave's normal to the height of its foot point and projects it along the master's normals. A
+/// step multiplies the error by the square of the angle between the two normals.
 template <int dim>
 std::optional<PointProjection<dim>>
-PointGaps<dim>::foot(const dealii::Tensor<1, dim> &x,
-                     const dealii::Tensor<1, dim> &slave_normal) const
+PointGaps<dim>::project(const dealii::Tensor<1, dim> &x,
+                        const dealii::Tensor<1, dim> &slave_normal) const
 {
   auto result = projector->onto(x);
   for (unsigned int step = 0; step < 3 && result; ++step)
@@ -75,7 +75,7 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       if (slave_normals)
         for (const auto &[node, weight] : slave)
           result.normal += weight * slave_normals->normals()[node];
-      const auto nearest = slave_normals ? foot(x, result.normal) : projector->onto(x);
+      const auto nearest = slave_normals ? project(x, result.normal) : projector->onto(x);
       if (!nearest)
         return {};
       if (!slave_normals)
@@ -84,7 +84,7 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       // Normalize, because interpolated normals are shorter between nodes, as in mortar rows, and
       // an offset is too large in comparison.
       result.normal /= result.normal.norm();
-      result.gap             = result.normal * (place(*nearest) - x) + nearest->relief;
+      result.gap             = result.normal * (place(*nearest) - x) + nearest->softening;
       result.masters         = nearest->masters;
       const auto &face       = surface.faces()[nearest->face];
       result.master_boundary = {face.body, face.boundary};

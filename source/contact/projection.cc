@@ -64,9 +64,9 @@ Projector<dim>::Projector(const mesh::Surface<dim>        &surface,
 
 template <int dim>
 std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
-Projector<dim>::find_ray(const dealii::Tensor<1, dim> &p,
-                         const unsigned int            face,
-                         const dealii::Point<dim - 1> &closest) const
+Projector<dim>::find_normal(const dealii::Tensor<1, dim> &p,
+                            const unsigned int            face,
+                            const dealii::Point<dim - 1> &closest) const
 {
   std::vector<unsigned int> candidates = {face};
   for (const unsigned int node : surface.faces()[face].nodes)
@@ -77,8 +77,8 @@ Projector<dim>::find_ray(const dealii::Tensor<1, dim> &p,
   for (int a = 0; a < dim - 1; ++a)
     middle[a] = 0.5;
   for (const unsigned int candidate : candidates)
-    if (const auto ray = rays(candidate).to(p, candidate == face ? closest : middle))
-      if (const auto xi = inside(ray->values.point))
+    if (const auto found = equations(candidate).solve(p, candidate == face ? closest : middle))
+      if (const auto xi = inside(found->values.point))
         return std::make_pair(candidate, *xi);
   return {};
 }
@@ -93,17 +93,18 @@ std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1,
     edges.excess(closest.face, closest.point.xi, p - closest.point.position, positions);
   if (excess >= edge_tolerance)
     return {};
-  const auto ray        = find_ray(p, closest.face, closest.point.xi);
-  const auto [face, xi] = ray.value_or(std::make_pair(closest.face, closest.point.xi));
+  const auto normal     = find_normal(p, closest.face, closest.point.xi);
+  const auto [face, xi] = normal.value_or(std::make_pair(closest.face, closest.point.xi));
   const auto &of        = surface.faces()[face];
   const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
-  // Where the ray begins on the side, as in a symmetry plane, the side does not end, so the relief
-  // is 0.
-  const double beyond = ray ? 0. : std::max(0., excess);
-  const auto   meets =
-    of.samples.empty() ? masters : nonzero(rays(face).on_surface(xi).values.value, of.samples);
-  const double relief = edge_relief(beyond, mean_face_size(surface, {face}, positions));
-  return PointProjection<dim>{face, xi, bool(ray), masters, meets, relief};
+  // Where the normal begins on the side, as in a symmetry plane, the side does not end, so the
+  // softening is 0.
+  const double beyond    = normal ? 0. : std::max(0., excess);
+  const auto   meets     = of.samples.empty()
+                             ? masters
+                             : nonzero(equations(face).intersection(xi).values.value, of.samples);
+  const double softening = edge_softening(beyond, mean_face_size(surface, {face}, positions));
+  return PointProjection<dim>{face, xi, bool(normal), masters, meets, softening};
 }
 
 template <int dim>
@@ -125,8 +126,8 @@ std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &s
         if (visited[slave] || !surface.masters(slave).empty())
           continue;
         visited[slave] = true;
-        if (const auto foot = projector.onto(positions[slave]))
-          result.push_back({*foot, slave});
+        if (const auto found = projector.onto(positions[slave]))
+          result.push_back({*found, slave});
       }
   return result;
 }

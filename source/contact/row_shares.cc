@@ -2,8 +2,8 @@
 #include <snug/contact/nearest_face.h>
 #include <snug/contact/opposite_faces.h>
 #include <snug/faces/tributary.h>
-#include <snug/mortar/face_arrays.h>
 #include <snug/mortar/mortar_coupling.h>
+#include <snug/mortar/mortar_face.h>
 
 #include <algorithm>
 #include <set>
@@ -71,7 +71,7 @@ private:
   {
     const auto                          &surface  = geometry.surface;
     const auto                           opposite = opposite_faces(geometry);
-    const auto                           x        = mortar::node_arrays<dim>(geometry.positions);
+    const auto                           x = faces::PointField<dim, double>(geometry.positions);
     const mortar::SegmentQuadrature<dim> quadrature(geometry.shape.degree(),
                                                     surface.idealization());
     const NearestFace<dim>               nearest(surface, geometry.sides.master, geometry.shape,
@@ -96,8 +96,8 @@ private:
             if (const unsigned int pair = pair_at(master); pair != beside)
               {
                 const auto part = mortar::integrate<dim, double>(
-                  quadrature, mortar::mortar_face<dim>(surface, geometry.shape, face, x),
-                  {mortar::mortar_face<dim>(surface, geometry.shape, master, x)});
+                  quadrature, mortar::mortar_face(surface, geometry.shape, face, x),
+                  {mortar::mortar_face(surface, geometry.shape, master, x)});
                 auto &own = of_pairs[pair];
                 own.resize(part.slave.size());
                 for (unsigned int k = 0; k < own.size(); ++k)
@@ -126,7 +126,7 @@ row_shares(const JoinedPair &joined, const PairGeometry<dim> &geometry, const Ro
   for (const unsigned int slave : slaves)
     result.push_back(areas.at(slave));
   // Add the areas of nodes without a row, whose multiplier functions belong to the rows.
-  for (const auto &shared : group.shared_nodes())
+  for (const auto &shared : group.dependent_multipliers())
     for (const auto &[row, share] : shared.rows)
       for (const auto &[pair, area] : areas.at(shared.node))
         result[row][pair] += share * area;

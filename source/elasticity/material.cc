@@ -5,11 +5,11 @@ namespace snug::elasticity {
 void Material::declare(Entries &entries)
 {
   entries.add("Young's modulus", youngs_modulus, positive(),
-              "Young's modulus [force/length^2], positive.");
+              "The Young's modulus, positive. Units: force/length^2.");
   entries.add("Poisson's ratio", poissons_ratio, inside(-1., 0.5),
-              "Poisson's ratio, above -1 and below 0.5.");
+              "The Poisson's ratio, above -1 and below 0.5.");
   entries.add("Density", density, at_least(0., "must not be negative"),
-              "Mass per volume [mass/length^3], for gravity and mass.");
+              "The mass per volume, for gravity and the quantity mass. Units: mass/length^3.");
 }
 
 void Material::check(const SectionCheck &section) const

@@ -133,11 +133,9 @@ template struct FaceValues<2, double, 4>;
 template struct FaceValues<3, double, 4>;
 SNUG_INSTANTIATE(2, double)
 SNUG_INSTANTIATE(2, Differential<1>)
-SNUG_INSTANTIATE(2, Differential<8>)
-SNUG_INSTANTIATE(2, Differential<12>)
+SNUG_INSTANTIATE(2, Recorded)
 SNUG_INSTANTIATE(3, double)
 SNUG_INSTANTIATE(3, Differential<1>)
-SNUG_INSTANTIATE(3, Differential<24>)
-SNUG_INSTANTIATE(3, Differential<54>)
+SNUG_INSTANTIATE(3, Recorded)
 #undef SNUG_INSTANTIATE
 } // namespace snug::faces

@@ -5,52 +5,105 @@
 #include <sstream>
 
 namespace snug::faces {
+namespace {
+/// About cos(25 deg), the minimum length of the free part of a normal that respects supports.
+/// Normals that lean more on a support are meant to do so: without the held part they would have
+/// little to do with the face.
+const double least_free_part = 0.9;
+
+template <int dim, typename Number>
+Number norm(const dealii::Tensor<1, dim, Number> &v)
+{
+  using std::sqrt;
+  return sqrt(v * v);
+}
+
+/// Return the area vector of the true surface of @p face at its node @p k.
+template <int dim, typename Number>
+dealii::Tensor<1, dim, Number> area_at_node(const FaceShape<dim>                    &shape,
+                                            const typename mesh::Surface<dim>::Face &face,
+                                            const unsigned int                       k,
+                                            const PointField<dim, Number>           &x)
+{
+  const TrueSurface<dim> of(shape, face, k);
+  return area_vector(tangents<dim>(of.at_node, of.points, x));
+}
+} // namespace
+
 template <int dim>
 NodalNormals<dim>::NodalNormals(const mesh::Surface<dim>        &surface,
                                 const std::vector<unsigned int> &faces,
                                 const FaceShape<dim>            &shape,
-                                const Field                     &positions)
-  : surface(surface), faces(faces), shape(shape), positions(positions)
+                                const Field                     &positions,
+                                const HeldDirections<dim>       *held)
+  : surface(surface)
+  , faces(faces)
+  , shape(shape)
+  , positions(positions)
+  , held(held)
+  , areas(sum_areas(PointField<dim, double>(positions)))
+  , corrections(surface.n_nodes())
+  , touched(surface.n_nodes(), false)
+  , corrected(surface.n_nodes(), false)
+  , unit(surface.n_nodes())
 {
-  normalise_areas(positions, area_unit, area_length);
-  unit = area_unit;
-  length.assign(unit.size(), 1.);
+  for (const unsigned int f : faces)
+    for (const unsigned int node : surface.faces()[f].nodes)
+      touched[node] = true;
+  check(areas, positions);
   correct();
+  for (unsigned int node = 0; node < unit.size(); ++node)
+    if (touched[node])
+      unit[node] = normal(node, areas[node]);
 }
 
-/// Compute a_k/|a_k| and |a_k| at the positions @p x.
+/// Return a_k. Area vectors are summed without normalization, so that faces are weighted by their
+/// areas and the sum is a polynomial of the positions.
 template <int dim>
-void NodalNormals<dim>::normalise_areas(const Field         &x,
-                                        Field               &areas,
-                                        std::vector<double> &lengths) const
+template <typename Number>
+std::vector<dealii::Tensor<1, dim, Number>>
+NodalNormals<dim>::sum_areas(const PointField<dim, Number> &x) const
 {
-  areas.assign(surface.n_nodes(), {});
-  lengths.assign(surface.n_nodes(), 0.);
-  std::vector<bool> touched(surface.n_nodes(), false);
+  std::vector<dealii::Tensor<1, dim, Number>> result(surface.n_nodes());
   for (const unsigned int f : faces)
     {
       const auto &face = surface.faces()[f];
       for (unsigned int k = 0; k < face.nodes.size(); ++k)
-        {
-          const TrueSurface<dim> of(shape, face, k);
-          // Area vectors are summed without normalization, so that faces are weighted by their
-          // areas and the sum is a polynomial of the positions.
-          areas[face.nodes[k]] += area_vector(tangents<dim>(of.at_node, of.points, x));
-          touched[face.nodes[k]] = true;
-        }
+        result[face.nodes[k]] += area_at_node(shape, face, k, x);
     }
+  return result;
+}
+
+/// Return n_k from a_k.
+template <int dim>
+template <typename Number>
+dealii::Tensor<1, dim, Number> NodalNormals<dim>::normal(const unsigned int             node,
+                                                         dealii::Tensor<1, dim, Number> v) const
+{
+  v /= norm(v);
+  if (corrected[node])
+    {
+      v += corrections[node];
+      v /= norm(v);
+    }
+  if (!held || (*held)[node].empty())
+    return v;
+  const auto   free = free_part(v, (*held)[node]);
+  const Number size = norm(free);
+  return value_of(size) > least_free_part ? free / size : v;
+}
+
+/// Throw an error where @p areas at the positions @p x have no direction.
+template <int dim>
+void NodalNormals<dim>::check(const Field &areas, const Field &x) const
+{
   for (unsigned int node = 0; node < areas.size(); ++node)
-    if (touched[node])
+    // The condition is written so that it also catches NaN.
+    if (touched[node] && (!(areas[node].norm() > 0.) || !std::isfinite(areas[node].norm())))
       {
-        lengths[node] = areas[node].norm();
-        // The condition is written so that it also catches NaN.
-        if (!(lengths[node] > 0.) || !std::isfinite(lengths[node]))
-          {
-            std::ostringstream message;
-            message << "the contact faces at (" << x[node] << ") are tangled: they have no normal";
-            throw TangledMesh(message.str());
-          }
-        areas[node] /= lengths[node];
+        std::ostringstream message;
+        message << "the contact faces at (" << x[node] << ") are tangled: they have no normal";
+        throw TangledMesh(message.str());
       }
 }
 
@@ -80,81 +133,59 @@ void NodalNormals<dim>::correct()
       }
   if (!any)
     return;
-  Field               reference;
-  std::vector<double> lengths;
-  normalise_areas(X, reference, lengths);
-  for (unsigned int node = 0; node < unit.size(); ++node)
+  const Field reference = sum_areas(PointField<dim, double>(X));
+  check(reference, X);
+  for (unsigned int node = 0; node < corrections.size(); ++node)
     if (known[node] && !several[node])
       {
-        unit[node] += normal_of(known[node], node) - reference[node];
-        length[node] = unit[node].norm();
-        unit[node] /= length[node];
+        auto unit_area = reference[node];
+        unit_area /= unit_area.norm();
+        corrected[node]   = true;
+        corrections[node] = normal_of(known[node], node) - unit_area;
       }
 }
 
 template <int dim>
 typename NodalNormals<dim>::Field NodalNormals<dim>::derivative(const Field &velocity) const
 {
-  Field result(surface.n_nodes());
-  for (const unsigned int f : faces)
-    {
-      const auto &face = surface.faces()[f];
-      for (unsigned int k = 0; k < face.nodes.size(); ++k)
-        {
-          const TrueSurface<dim> of(shape, face, k);
-          result[face.nodes[k]] +=
-            area_vector_derivative(tangents<dim>(of.at_node, of.points, positions),
-                                   tangents<dim>(of.at_node, of.points, velocity));
-        }
-    }
+  const auto moving = sum_areas(PointField<dim, Differential<1>>(positions, velocity));
+  Field      result(surface.n_nodes());
   for (unsigned int node = 0; node < result.size(); ++node)
-    // Nodes of other faces have length 0 and no derivative.
-    if (area_length[node] > 0.)
-      result[node] =
-        unit_vector_derivative(unit[node], length[node],
-                               unit_vector_derivative(area_unit[node], area_length[node],
-                                                      result[node]));
+    if (touched[node])
+      {
+        const auto n = normal(node, moving[node]);
+        for (int d = 0; d < dim; ++d)
+          result[node][d] = n[d].slope[0];
+      }
   return result;
 }
 
-/// Apply the chain rule in reverse order: unit normal, sum of area vectors, tangents, points of
-/// each face.
+/// Record first the normal of each node as a function of its area vector, then the area vectors of
+/// each face as functions of its points.
 template <int dim>
 void NodalNormals<dim>::add_transpose(const Field &normal_gradient, Field &gradient) const
 {
+  Recording                       recording;
+  const PointField<dim, Recorded> of_areas(areas, recording);
+  Field                           area_gradient(surface.n_nodes());
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    if (touched[node] && normal_gradient[node].norm_square() > 0.)
+      recording.add(normal(node, of_areas[node]), normal_gradient[node]);
+  recording.sweep();
+  of_areas.add_derivatives(area_gradient);
   for (const unsigned int f : faces)
     {
       const auto &face = surface.faces()[f];
+      recording.clear();
+      const PointField<dim, Recorded> x(positions, recording);
       for (unsigned int k = 0; k < face.nodes.size(); ++k)
-        {
-          const TrueSurface<dim> of(shape, face, k);
-          const unsigned int     node = face.nodes[k];
-          // (I - n n')/|a| is symmetric, so the same function serves derivative and transpose.
-          const auto to_area =
-            unit_vector_derivative(area_unit[node], area_length[node],
-                                   unit_vector_derivative(unit[node], length[node],
-                                                          normal_gradient[node]));
-          const auto to_tangents =
-            area_vector_transpose(tangents<dim>(of.at_node, of.points, positions), to_area);
-          for (unsigned int j = 0; j < of.points.size(); ++j)
-            for (int i = 0; i < dim - 1; ++i)
-              gradient[of.points[j]] += of.at_node.gradient[j][i] * to_tangents[i];
-        }
+        if (area_gradient[face.nodes[k]].norm_square() > 0.)
+          recording.add(area_at_node(shape, face, k, x), area_gradient[face.nodes[k]]);
+      recording.sweep();
+      x.add_derivatives(gradient);
     }
-}
-
-template <int dim>
-dealii::Tensor<1, dim> unit_vector_derivative(const dealii::Tensor<1, dim> &n,
-                                              double                        length,
-                                              const dealii::Tensor<1, dim> &v)
-{
-  return (v - (n * v) * n) / length;
 }
 
 template class NodalNormals<2>;
 template class NodalNormals<3>;
-template dealii::Tensor<1, 2>
-unit_vector_derivative(const dealii::Tensor<1, 2> &, double, const dealii::Tensor<1, 2> &);
-template dealii::Tensor<1, 3>
-unit_vector_derivative(const dealii::Tensor<1, 3> &, double, const dealii::Tensor<1, 3> &);
 } // namespace snug::faces

@@ -2,43 +2,41 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <cmath>
+
 namespace snug::faces {
 namespace {
-/// A Gauss point of a face, whose area is weight * |area|.
-template <int dim>
-struct AreaPoint
+/// Call add(k, number) with the parts of the integral of the shape function of each node k of a
+/// face.
+template <int dim, typename Number, typename Add>
+void for_each_part(const mesh::Surface<dim>      &surface,
+                   const unsigned int             face,
+                   const FaceShape<dim>          &shape,
+                   const PointField<dim, Number> &positions,
+                   const Add                     &add)
 {
-  const std::vector<unsigned int>        &nodes;
-  const typename FaceShape<dim>::Values  &values;
-  const typename FaceShape<dim>::Tangents t;
-  const dealii::Tensor<1, dim>            area; ///< area vector
-  const double                            weight;
-  const dealii::Tensor<1, dim>            weight_gradient;
-};
-
-/// Call work() for every Gauss point of every face.
-template <int dim, typename Work>
-void for_each_point(const TributaryFaces<dim>                &of,
-                    const typename mesh::Surface<dim>::Field &positions,
-                    const Work                               &work)
-{
-  // area| is not a polynomial on curved faces, so use one point more than elements do.
-  const dealii::QGauss<dim - 1> quadrature(of.shape.degree() + 2);
-  const auto                   &section = of.surface.idealization();
-  for (const unsigned int f : of.faces)
+  using std::sqrt;
+  const auto &nodes   = surface.faces()[face].nodes;
+  const auto &section = surface.idealization();
+  // The length of the area vector is not a polynomial on curved faces, so use one point more than
+  // elements do.
+  const dealii::QGauss<dim - 1> gauss(shape.degree() + 2);
+  for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      const auto &nodes = of.surface.faces()[f].nodes;
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          const auto             values = of.shape.at(quadrature.point(q));
-          dealii::Tensor<1, dim> x;
-          for (unsigned int k = 0; k < nodes.size(); ++k)
-            x += values.value[k] * positions[nodes[k]];
-          const double weight = quadrature.weight(q);
-          const auto   t      = tangents<dim>(values, nodes, positions);
-          work(AreaPoint<dim>{nodes, values, t, area_vector(t), weight * section.weight(x),
-                              weight * section.template weight_gradient<dim>()});
-        }
+      const auto                     values = shape.at(gauss.point(q));
+      const auto                     area   = area_vector(tangents<dim>(values, nodes, positions));
+      const Number                   length = sqrt(area * area);
+      dealii::Tensor<1, dim, Number> x;
+      dealii::Tensor<1, dim>         value_of_x;
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        x += values.value[k] * positions[nodes[k]];
+      for (int d = 0; d < dim; ++d)
+        value_of_x[d] = value_of(x[d]);
+      // The weight of the section, which is 2 pi r in axisymmetric models, is linear in x.
+      const Number weight =
+        section.weight(value_of_x) + section.template weight_gradient<dim>() * (x - value_of_x);
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        add(k, values.value[k] * (gauss.weight(q) * weight) * length);
     }
 }
 } // namespace
@@ -47,11 +45,12 @@ template <int dim>
 std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
                                     const typename mesh::Surface<dim>::Field &positions)
 {
-  std::vector<double> share(of.surface.n_nodes(), 0.);
-  for_each_point(of, positions, [&](const AreaPoint<dim> &point) {
-    for (unsigned int k = 0; k < point.nodes.size(); ++k)
-      share[point.nodes[k]] += point.values.value[k] * point.weight * point.area.norm();
-  });
+  const PointField<dim, double> x(positions);
+  std::vector<double>           share(of.surface.n_nodes(), 0.);
+  for (const unsigned int f : of.faces)
+    for_each_part(of.surface, f, of.shape, x, [&](const unsigned int k, const double part) {
+      share[of.surface.faces()[f].nodes[k]] += part;
+    });
   for (unsigned int node = 0; node < share.size(); ++node)
     // u_hanging = sum w_m u_m, so a force that is lumped to a hanging node acts on its masters with
     // the weights w_m.
@@ -78,20 +77,9 @@ std::vector<double> shape_integrals(const mesh::Surface<dim>                 &su
                                     const FaceShape<dim>                     &shape,
                                     const typename mesh::Surface<dim>::Field &positions)
 {
-  const auto                   &nodes = surface.faces()[face].nodes;
-  const dealii::QGauss<dim - 1> gauss(shape.degree() + 2);
-  std::vector<double>           result(nodes.size(), 0.);
-  for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const auto             values = shape.at(gauss.point(q));
-      dealii::Tensor<1, dim> x;
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        x += values.value[k] * positions[nodes[k]];
-      const double weight = gauss.weight(q) * surface.idealization().weight(x) *
-                            area_vector(tangents<dim>(values, nodes, positions)).norm();
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        result[k] += weight * values.value[k];
-    }
+  std::vector<double> result(surface.faces()[face].nodes.size(), 0.);
+  for_each_part(surface, face, shape, PointField<dim, double>(positions),
+                [&](const unsigned int k, const double part) { result[k] += part; });
   return result;
 }
 
@@ -111,23 +99,17 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
   for (unsigned int node = 0; node < share.size(); ++node)
     for (const auto &master : of.surface.masters(node))
       share[node] += master.second * of_nodes[master.first];
-  for_each_point(of, positions, [&](const AreaPoint<dim> &point) {
-    // Differentiate sum_k share_k N_k, the sum over the functions of all nodes, at once.
-    double factor = 0.;
-    for (unsigned int k = 0; k < point.nodes.size(); ++k)
-      factor += share[point.nodes[k]] * point.values.value[k];
-    // d|a| = (a/|a|) . da
-    const auto by_tangents =
-      area_vector_transpose(point.t, factor * point.weight / point.area.norm() * point.area);
-    for (unsigned int k = 0; k < point.nodes.size(); ++k)
-      {
-        auto &sum = gradient[point.nodes[k]];
-        // The weight of the section, which is 2 pi r in axisymmetric models, moves with the node.
-        sum += factor * point.area.norm() * point.values.value[k] * point.weight_gradient;
-        for (int i = 0; i < dim - 1; ++i)
-          sum += point.values.gradient[k][i] * by_tangents[i];
-      }
-  });
+  Recording recording;
+  for (const unsigned int f : of.faces)
+    {
+      recording.clear();
+      const PointField<dim, Recorded> x(positions, recording);
+      for_each_part(of.surface, f, of.shape, x, [&](const unsigned int k, const Recorded &part) {
+        recording.add(part, share[of.surface.faces()[f].nodes[k]]);
+      });
+      recording.sweep();
+      x.add_derivatives(gradient);
+    }
 }
 
 #define SNUG_INSTANTIATE(dim)                                                            \

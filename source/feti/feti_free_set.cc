@@ -87,8 +87,8 @@ qp::MultiVector Linearization::FetiFreeSet::precondition(const qp::MultiVector &
   feti.context().work.preconditioner_applications += r.n_columns();
   // Only the owner of linearly dependent contact rows detects them.
   if (!gram)
-    everywhere(feti.context().communicator(),
-               [&]() { gram = std::make_unique<RowGram::Factor>(*feti.gram, free); });
+    throw_collectively(feti.context().communicator(),
+                       [&]() { gram = std::make_unique<RowGram::Factor>(*feti.gram, free); });
   // M^-1 = W_M^-1 (B D^-1 S D^-1 B') W_M^-1. W_M is the identity for orthonormal rows and D = I.
   gram->solve(z);
   feti.precondition(z);

@@ -4,17 +4,18 @@
 namespace snug::feti {
 void FetiParameters::declare(Entries &entries)
 {
-  entries.add("Factorization", factorization, "Package that factorizes the subdomains.");
-  entries.add("Preconditioner", preconditioner,
-              "Dirichlet: fewest iterations; lumped: cheaper ones; none: for comparison.");
-  entries.add("Scaling", scaling,
-              "How the preconditioner weighs the copies of a node: by their stiffness, for bodies "
-              "of different moduli, or by their number.");
-  entries.add("Soft modes", soft_modes,
-              "Subdomains of which motions that would take many iterations are found beforehand, "
-              "once for a mesh: auto: all but compact ones of compact cells.");
-  entries.add("Coarse ranks", coarse_ranks,
-              "Ranks that factorize a coarse problem in common, by MUMPS: 0: by its size; 1: every "
-              "rank for itself, as all do by default where it has at most 20,000 unknowns.");
+  entries.add("Factorization", factorization,
+              "The package that factorizes the matrices of the subdomains.");
+  entries.add("Preconditioner", preconditioner, "The preconditioner of the dual problem.");
+  entries.add("Scaling", scaling, "The weights of the copies of a node in the preconditioner.");
+  entries.add(
+    "Soft modes", soft_modes,
+    "The subdomains whose soft modes enrich the coarse space. Soft modes are deformations "
+    "that would need many iterations. They are computed once for a mesh.");
+  entries.add(
+    "Coarse ranks", coarse_ranks,
+    "The number of ranks that factorize a coarse problem together, by MUMPS. A value of 1 "
+    "means that every rank factorizes it alone. A value of 0 means a number that follows "
+    "from its size, which is 1 up to 20,000 unknowns.");
 }
 } // namespace snug::feti

@@ -71,7 +71,7 @@ Linearization::Linearization(const Operators                          &the_opera
     entries = gather_entries();
     // G and G G' follow B, 1/D and their products with R.
     coarse_space = std::make_unique<CoarseSpace>(operators.coarse, entries, 2, systems);
-    everywhere(context().communicator(), [&]() {
+    throw_collectively(context().communicator(), [&]() {
       gram = std::make_unique<RowGram>(operators.gram, entries, 2 + table().n_modes);
     });
     weight_rows();
@@ -86,11 +86,11 @@ Linearization::Linearization(const Operators                          &the_opera
     deflation = std::make_unique<Deflation>(*modes, systems, rows, subdomain_factors);
 }
 
-/// A factorization may fail on one rank only. everywhere() turns this failure into an error on all
-/// ranks, because otherwise the other ranks would wait in the next collective call.
+/// A factorization may fail on one rank only. throw_collectively() turns this failure into an error
+/// on all ranks, because otherwise the other ranks would wait in the next collective call.
 void Linearization::factorize()
 {
-  everywhere(context().communicator(), [&]() {
+  throw_collectively(context().communicator(), [&]() {
     const RunContext::Timer timer(context(), "factorization");
     for (unsigned int s = 0; s < systems.size(); ++s)
       if (!subdomain_factors[s])
@@ -174,9 +174,9 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   largest = dealii::Utilities::MPI::max(largest, context().communicator());
   context().work.soft_modes += counts[0];
   if (counts[0] > 0)
-    context().out() << "soft modes: " << counts[0] << " of " << counts[1]
-                    << " subdomains, the softest " << largest << " times stiffer by its jumps"
-                    << std::endl;
+    context().out(Verbosity::debug)
+      << "soft modes: " << counts[0] << " of " << counted(counts[1], "subdomain")
+      << ", maximum eigenvalue " << largest << std::endl;
   return forces;
 }
 

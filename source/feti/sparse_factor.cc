@@ -214,7 +214,7 @@ void SparseFactor::factorize(const CsrMatrix   &A,
   if (!group)
     factorize_values(A, what);
   else
-    everywhere(group->all(), [&]() {
+    throw_collectively(group->all(), [&]() {
       if (group->has_this_rank())
         factorize_values(A, what);
     });

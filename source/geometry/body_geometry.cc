@@ -47,7 +47,7 @@ std::unique_ptr<BodyGeometry<dim>> made(const BodyMeshParameters &parameters)
     }
   // The body exists only in the other dimension, which is 5 - dim.
   throw bad_entry("Mesh", to_text(parameters.source),
-                  "is for Dimension = " + std::to_string(5 - dim));
+                  "requires Dimension = " + std::to_string(5 - dim));
 }
 } // namespace
 
@@ -55,21 +55,22 @@ std::unique_ptr<BodyGeometry<dim>> made(const BodyMeshParameters &parameters)
 Names names(Source)
 {
   return {
-    {"box", "box, with graded cells and curved faces; boundaries left, right (x), bottom, top (y) "
-            "in 2D and left, right (x), front, back (y), bottom, top (z) in 3D"},
-    {"ring", "between two circles about the origin, in 3D a hollow cylinder along z from 0 to the "
-             "length; boundaries inner, outer, in 3D bottom and top, of a half or a quarter start "
-             "and end"},
-    {"disc", "2D, about the origin; boundaries outer, of a half (y > 0) bottom, of a quarter (x, y "
-             "> 0) left too"},
+    {"box",
+     "box with graded cells and curved faces. Boundaries in 2D: left, right (x), bottom, top "
+     "(y). Boundaries in 3D: left, right (x), front, back (y), bottom, top (z)."},
+    {"ring", "ring about the origin, in 3D a hollow cylinder from z = 0 to the length. Boundaries: "
+             "inner, outer, in 3D bottom and top. A half and a quarter also have start and end."},
+    {"disc",
+     "2D disc about the origin. Boundaries: outer. A half (y > 0) also has bottom, a quarter "
+     "(x, y > 0) bottom and left."},
     {"cylinder",
-     "3D, a disc from z = 0 to the length; boundaries outer, bottom, top, of a half front "
-     "(y = 0), of a quarter left (x = 0) too"},
-    {"sphere",
-     "3D, about the origin; boundaries outer, of a half (z > 0) bottom, of a quarter (y, z "
-     "> 0) front too, of an eighth left too"},
-    {"shell", "3D, a sphere with a concentric hole; boundary inner"},
-    {"file", "the mesh file, boundaries as they are named there and free for what has no name"}};
+     "3D cylinder about the z axis from z = 0 to the length. Boundaries: outer, bottom, "
+     "top. A half (y > 0) also has front, a quarter (x, y > 0) front and left."},
+    {"sphere", "3D sphere about the origin. Boundaries: outer. A half (z > 0) also has bottom, a "
+               "quarter (y, z > 0) bottom and front, an eighth bottom, front and left."},
+    {"shell",
+     "3D sphere with a concentric spherical hole. Boundaries: those of sphere, and inner."},
+    {"file", "mesh file. Boundaries have the names of the file, and free if they have no name."}};
 }
 
 template <int dim>
@@ -86,7 +87,7 @@ unsigned int boundary_index(const BodyGeometry<dim> &geometry, const std::string
   const unsigned int index = index_of(names, name);
   if (index == names.size())
     // The message does not name the entry, because only the callers know the entry.
-    throw InputError("'" + name + "' is no face; the faces are " + to_text(names));
+    throw InputError("'" + name + "' is not a face; the faces are " + to_text(names));
   return index;
 }
 

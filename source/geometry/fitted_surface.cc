@@ -1,29 +1,10 @@
-#include <snug/geometry/entry_values.h>
 #include <snug/geometry/fitted_surface.h>
 
 #include <deal.II/lac/vector.h>
 
-namespace snug::geometry {
-namespace {
-/// Return the direction of "cylinder AXIS", or 0 for a sphere.
-template <int dim>
-dealii::Tensor<1, dim> read_axis(const std::string &boundary, const std::string &value)
-{
-  const auto         word     = words(value);
-  const bool         sphere   = word.size() == 1 && word[0] == "sphere";
-  const bool         cylinder = word.size() == 2 && word[0] == "cylinder";
-  const unsigned int axis     = cylinder ? axis_called(word[1]) : 3;
-  if (!sphere && (axis == 3 || (dim == 2 && axis != 2)))
-    throw bad_entry("Curved faces", boundary + ": " + value,
-                    std::string("of a mesh file must be 'sphere' or 'cylinder ") +
-                      (dim == 2 ? "z'" : "AXIS'"));
-  dealii::Tensor<1, dim> result;
-  if (axis < dim)
-    result[axis] = 1.;
-  return result;
-}
-} // namespace
+#include <sstream>
 
+namespace snug::geometry {
 template <int dim>
 double SurfaceSample<dim>::largest_distance(const KnownSurface<dim> &surface) const
 {
@@ -38,7 +19,7 @@ double SurfaceSample<dim>::largest_distance(const KnownSurface<dim> &surface) co
 }
 
 template <int dim>
-KnownSurface<dim> SurfaceSample<dim>::faced(KnownSurface<dim> surface) const
+KnownSurface<dim> SurfaceSample<dim>::oriented(KnownSurface<dim> surface) const
 {
   surface.convex = true;
   double sum     = 0.;
@@ -108,30 +89,7 @@ KnownSurface<dim> fitted_round(const SurfaceSample<dim> &sample, const dealii::T
       square += x(d) * x(d);
     }
   result.radius = size * std::sqrt(square);
-  return sample.faced(result);
-}
-
-template <int dim>
-KnownSurface<dim> fitted_surface(const std::string        &boundary,
-                                 const std::string        &value,
-                                 const SurfaceSample<dim> &sample)
-{
-  const auto   axis    = read_axis<dim>(boundary, value);
-  const auto   surface = fitted_round(sample, axis);
-  const double largest = sample.largest_distance(surface);
-  // With the tolerance 1e-4, files with 5 or 6 digits are accepted, but nodes on chords or of
-  // another face are rejected. A surface with a radius of 1000 distances between points is a plane
-  // within the tolerance, so no sphere can be found.
-  const double allowed = 1e-4, flat = 1e3;
-  const double length = sample.points.front().distance(sample.points.back());
-  if (!(largest <= allowed * surface.radius && surface.radius < flat * length))
-    {
-      std::ostringstream text;
-      text << "does not fit: nodes of '" << boundary << "' are up to " << largest
-           << " off the best one, of radius " << surface.radius;
-      throw bad_entry("Curved faces", boundary + ": " + value, text.str());
-    }
-  return surface;
+  return sample.oriented(result);
 }
 
 template <int dim>
@@ -153,10 +111,6 @@ template struct SurfaceSample<2>;
 template struct SurfaceSample<3>;
 template KnownSurface<2> fitted_round(const SurfaceSample<2> &, const dealii::Tensor<1, 2> &);
 template KnownSurface<3> fitted_round(const SurfaceSample<3> &, const dealii::Tensor<1, 3> &);
-template KnownSurface<2>
-fitted_surface(const std::string &, const std::string &, const SurfaceSample<2> &);
-template KnownSurface<3>
-fitted_surface(const std::string &, const std::string &, const SurfaceSample<3> &);
-template std::string describe(const KnownSurface<2> &);
-template std::string describe(const KnownSurface<3> &);
+template std::string     describe(const KnownSurface<2> &);
+template std::string     describe(const KnownSurface<3> &);
 } // namespace snug::geometry

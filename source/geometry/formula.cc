@@ -38,7 +38,7 @@ std::string parser_message(const dealii::ExceptionBase &error)
   const std::string mark    = "The parser said: ";
   const auto        found   = message.find(mark);
   if (found == std::string::npos)
-    return "not one formula";
+    return "not a single formula";
   message = message.substr(found + mark.size());
   return message.substr(0, message.find_last_not_of(" .\n") + 1);
 }

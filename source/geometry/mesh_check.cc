@@ -43,7 +43,7 @@ void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, con
 void check_radius(const SectionCheck &section, const BodyMeshParameters &mesh, const double least)
 {
   const std::string allowed = "must not lead to a negative x, the radius of axisymmetric models, "
-                              "but does to " +
+                              "but leads to x = " +
                               to_text(least);
   const bool moved = !mesh.shift.empty() && mesh.shift[0] < 0.;
   const bool box   = mesh.source == Source::box && mesh.corner[0] < 0.;
@@ -101,6 +101,14 @@ void BodyMeshParameters::check(const SectionCheck &section, const bool axisymmet
 {
   if (source == Source::box)
     check_box(section, *this);
+  if (source == Source::file && !curved_faces.empty())
+    {
+      const auto &face = *curved_faces.begin();
+      throw section.error("Curved faces", face.first + ": " + face.second,
+                          "is for boxes; round boundaries of mesh files are recognized, with "
+                          "'Surface = " +
+                            face.first + ": smooth' at any angle between facets");
+    }
   section.dimension == 2 ? check_in<2>(section, *this, axisymmetric)
                          : check_in<3>(section, *this, axisymmetric);
   section.require(local_refinements == 0 || !refine_where.empty(), "Refine where", refine_where,

@@ -6,82 +6,110 @@ namespace {
 void declare_box(Entries &entries, BodyMeshParameters &mesh)
 {
   entries.add("Box corner", mesh.corner, per_dimension(),
-              "Corner with the smallest coordinates [length]; empty: the origin.");
+              "The corner with the smallest coordinates. Units: length. An empty list means the "
+              "origin.");
   entries.add("Box size", mesh.size, per_dimension(positive()),
-              "Length of the edges along x, y, z [length]; empty: 1.");
+              "The edge lengths along x, y, z. Units: length. An empty list means 1.");
   entries.add("Box cells", mesh.cells, per_dimension(),
-              "Number of cells along x, y, z, before refinement.");
-  entries.add("Box grading", mesh.grading, per_dimension(positive()),
-              "Along x, y, z: size of the last cell over the size of the first, sizes growing "
-              "geometrically; empty: 1, equal cells.");
-  entries.add("Box fine length", mesh.fine_length, per_dimension(),
-              "Along x, y, z: half of the cells are equal and fill this much from the lower end, "
-              "sizes of the others grow from there [length]; 0 or empty: not.");
+              "The numbers of cells along x, y, z before refinement.");
+  entries.add(
+    "Box grading", mesh.grading, per_dimension(positive()),
+    "The ratios of the size of the last cell to the size of the first cell along x, y, z, "
+    "with sizes in geometric progression. An empty list means equal cells.");
+  entries.add(
+    "Box fine length", mesh.fine_length, per_dimension(),
+    "The lengths along x, y, z, from the lower end, that half of the cells fill with equal "
+    "sizes. The sizes of the other cells grow from there. Units: length. A value of 0 or "
+    "an empty list means no fine part.");
   entries.add(
     "Curved faces", access(mesh.curved_faces, ';'),
-    allowed("a list 'boundary: sphere R; boundary: cylinder AXIS R; boundary: FORMULA' of "
-            "different boundaries, separated by semicolons; 'at' and the coordinates of the apex "
-            "may follow R"),
-    "Faces that are not flat, separated by semicolons (formulas may hold commas): 'bottom: sphere "
-    "4', 'bottom: cylinder x 4' (radius [length], positive if convex; the axis is the cylinder's, "
-    "z in 2D) or a formula of x, y, z for the outward displacement of the face [length], 'bottom: "
-    "-(x^2)/8'. The apex of a sphere or a cylinder, where it touches the flat face, is the centre "
-    "of the face; 'bottom: sphere 4 at 0, 0' or 'bottom: cylinder y 4 at 0' give its coordinates "
-    "across the normal and the axis [length], as for half of a body, whose apex lies on the plane "
-    "of symmetry. Of a mesh file: boundaries that lie on a sphere or a cylinder, 'ball: sphere; "
-    "bore: cylinder z', whose centre and radius are found.");
+    with_meanings(
+      allowed("a list 'boundary: surface; boundary: surface' of different boundaries, separated by "
+              "semicolons"),
+      {{"sphere R", "face of a box on a sphere of radius R [length], positive if convex: 'bottom: "
+                    "sphere 4'"},
+       {"cylinder AXIS R",
+        "face of a box on a cylinder along x, y or z: 'bottom: cylinder x 4'. In "
+        "2D the axis is z."},
+       {"sphere R at X, Y",
+        "the same with the point of contact of the sphere and the flat face at "
+        "these coordinates [length] instead of the centre of the face: 'bottom: "
+        "sphere 4 at 0, 0' for half of a symmetric body"},
+       {"cylinder AXIS R at Y",
+        "the same with the coordinate across the axis: 'bottom: cylinder y 4 "
+        "at 0'"},
+       {"FORMULA", "outward displacement of the face of a box [length] as a formula of x, y, z: "
+                   "'bottom: -(x^2)/8'"}}),
+    "The true surfaces of faces of a box that are not flat.");
 }
 
 void declare_round(Entries &entries, BodyMeshParameters &mesh)
 {
-  entries.add("Radius", mesh.radius, "Outer radius of round bodies [length].");
-  entries.add("Inner radius", mesh.inner_radius, "Inner radius of rings and shells [length].");
-  entries.add("Length", mesh.length, "Length along z of cylinders and rings in 3D [length].");
+  entries.add("Radius", mesh.radius, "The outer radius of round bodies. Units: length.");
+  entries.add("Inner radius", mesh.inner_radius,
+              "The inner radius of rings and shells. Units: length.");
+  entries.add("Length", mesh.length,
+              "The length of cylinders and 3D rings along z. Units: length.");
   entries.add("Part", mesh.part,
-              "How much of a round body there is; the others are its mirror images. Eighths are of "
-              "spheres and shells.");
-  entries.add(
-    "Cells", mesh.round_cells,
-    "Number of cells of round bodies, before refinement. Of a ring: around all of its part, from "
-    "the inner to the outer radius, in 3D along; of the others in each block of a quarter or an "
-    "eighth: across, of a cylinder along too, of a shell around, across. Empty: 4 each.");
+              "The part of a round body that is meshed; mirror images make the rest. Only spheres "
+              "and shells have eighths.");
+  entries.add("Cells", mesh.round_cells,
+              with_meanings({},
+                            {{"ring", "around the meshed part, from the inner to the outer "
+                                      "radius, and in 3D along the axis"},
+                             {"disc, sphere", "along each edge of a block; a quarter of a disc "
+                                              "and an eighth of a sphere consist of such blocks"},
+                             {"cylinder", "along each edge of a block of the disc, and along the "
+                                          "axis"},
+                             {"shell", "around each block, and from the inner to the outer "
+                                       "radius"}}),
+              "The numbers of cells of round bodies before refinement. Their meaning depends on "
+              "'Mesh'. An empty list means 4 cells each.");
 }
 
 void declare_file(Entries &entries, BodyMeshParameters &mesh)
 {
   entries.add("Mesh file", mesh.file, allowed("the path of a file"),
-              "Gmsh .msh 2 or 4.1, Abaqus .inp, VTK legacy, or UCD in ASCII; relative to the "
-              "parameter file. Triangles, tetrahedra and prisms are split into quadrilaterals and "
-              "hexahedra. Boundaries are curved as their quadratic elements are, or lie on smooth "
-              "surfaces through their nodes; those on spheres, cylinders, cones and tori are "
-              "recognized.");
+              "The mesh file, relative to the parameter file: Gmsh .msh 2 or 4.1, or Abaqus .inp. "
+              "Triangles, tetrahedra and prisms are split into quadrilaterals and hexahedra. "
+              "'meshio convert -o gmsh22 part.vtk part.msh' converts other formats.");
   entries.add("Mesh regions", mesh.regions,
-              "Groups of cells of the file that make the body; empty: all cells.");
+              "The groups of cells of the mesh file that form the body. An empty list means all "
+              "cells.");
   entries.add("Boundary names", mesh.boundary_numbers,
               allowed("a list 'number: name, ...' of different numbers"),
-              "Names for the groups of faces to which the file gives only numbers, as VTK and UCD "
-              "do: '1: bottom, 7: bore'.");
-  entries.add("Surface", mesh.surfaces,
-              allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
-              "What a boundary of a mesh file is, if not what its nodes and elements say: plane "
-              "facets between its nodes, or a smooth surface through them: 'nut: facets, bore: "
-              "smooth'. Facets that turn by more than 30 degrees always meet in an edge; those "
-              "that turn by more than 15 degrees stay facets unless 'smooth' is said.");
+              "The names of groups of faces that have only numbers in the file, such as physical "
+              "groups of Gmsh without a name: '1: bottom, 7: bore'.");
+  entries.add(
+    "Surface", mesh.surfaces,
+    with_meanings(
+      allowed("a list 'boundary: facets, boundary: smooth' of different boundaries"),
+      {{"facets", "plane facets between the nodes"},
+       {"smooth", "one smooth surface through the nodes, without edges"},
+       {"boundaries not listed",
+        "the surface of quadratic elements, or a recognized sphere, cylinder, cone or torus, or "
+        "a smooth surface with edges where facets meet at more than 30 degrees; facets that meet "
+        "at 15 to 30 degrees are kept"}}),
+    "The true surfaces of boundaries of a mesh file: 'nut: facets, bore: smooth'.");
 }
 
 void declare_placement(Entries &entries, BodyMeshParameters &mesh)
 {
   entries.add("Warp", access(mesh.warp, ';'),
               allowed("a list 'FORMULA; FORMULA; FORMULA', one per dimension"),
-              "Displacement x, y, z of the mesh by formulas of x, y, z [length], before it is "
-              "scaled: '0; 0; 0.1*x^2'. Empty: none.");
-  entries.add("Scale", mesh.scale,
-              "Factor of all positions, about the origin: 0.001 for a file in mm in a scene in m.");
-  entries.add("Rotate", mesh.rotate, allowed("a list 'axis: degrees, ...'"),
-              "Rotations of the scaled mesh about axes through the origin, one after the other: "
-              "'x: 90, z: 30'. In 2D the axis is z.");
-  entries.add("Shift", mesh.shift,
-              "Shift of the rotated mesh along x, y, z [length]; empty: none.");
+              "The displacement of the mesh along x, y, z before scaling, as formulas of x, y, z: "
+              "'0; 0; 0.1*x^2'. Units: length. An empty list means no displacement.");
+  entries.add(
+    "Scale", mesh.scale,
+    "The factor of all positions about the origin: 0.001 for a file in mm in a model in m.");
+  entries.add(
+    "Rotate", mesh.rotate, allowed("a list 'axis: degrees, ...'"),
+    "The rotations of the scaled mesh about axes through the origin, one after the other: "
+    "'x: 90, z: 30'. In 2D the axis is z. Units: degrees.");
+  entries.add(
+    "Shift", mesh.shift,
+    "The translation of the rotated mesh along x, y, z. Units: length. An empty list means "
+    "no translation.");
 }
 
 void declare_regions(Entries &entries, BodyMeshParameters &mesh)
@@ -89,27 +117,27 @@ void declare_regions(Entries &entries, BodyMeshParameters &mesh)
   entries.add("Region formulas", access(mesh.region_formulas, ';'),
               allowed(
                 "a list 'region: FORMULA; ...' of different regions, separated by semicolons"),
-              "Regions for 'Materials' besides those of a mesh file: a cell, before refinement, "
-              "belongs to the first whose formula of x, y, z is positive at its centre: 'core: 1 - "
-              "x^2 - y^2; coat: z > 0.9'.");
+              "The regions for 'Materials' that are added to the regions of a mesh file. A cell of "
+              "the mesh before refinement belongs to the first region whose formula of x, y, z is "
+              "positive at its centre: 'core: 1 - x^2 - y^2; coat: z > 0.9'.");
 }
 
 void declare_refinement(Entries &entries, BodyMeshParameters &mesh)
 {
   entries.add("Refinements", mesh.refinements,
-              "How often every cell is split into 4 (2D) or 8 (3D).");
+              "The number of uniform refinements. Each one splits a cell into 4 (2D) or 8 (3D).");
   entries.add("Refine where", mesh.refine_where, allowed("a formula of x, y, z"),
-              "Cells are refined where this formula of x, y, z is positive at their centre, 'Local "
-              "refinements' times.");
+              "The formula of x, y, z that is positive at the centres of the cells to be refined "
+              "locally.");
   entries.add("Local refinements", mesh.local_refinements, at_most(15.),
-              "How often cells are split where 'Refine where' says so; adjacent cells differ by "
-              "one level (hanging nodes).");
+              "The number of local refinements by 'Refine where'. The levels of adjacent cells "
+              "differ by at most one (hanging nodes).");
 }
 } // namespace
 
 void BodyMeshParameters::declare(Entries &entries)
 {
-  entries.add("Mesh", source, "Source of the mesh.");
+  entries.add("Mesh", source, "The source of the mesh.");
   declare_box(entries, *this);
   declare_round(entries, *this);
   declare_file(entries, *this);

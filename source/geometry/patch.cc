@@ -5,7 +5,7 @@
 
 namespace snug::geometry {
 template <int dim>
-dealii::Point<dim> Guides<dim>::onto(dealii::Point<dim> x) const
+dealii::Point<dim> GeometryConstraints<dim>::onto(dealii::Point<dim> x) const
 {
   using Vector = dealii::Tensor<1, dim>;
   // For surfaces at an angle below 6 degrees, the last digits of the surfaces would determine their
@@ -51,8 +51,8 @@ dealii::Tensor<1, dim> Curve<dim>::offset(const double t) const
 {
   const Point chord  = Point((1. - t) * a + t * b);
   Vector      result = t * (1. - t) * ((1. - t) * c[0] + t * c[1]);
-  if (!guides.surfaces.empty())
-    result = guides.onto(chord + result) - chord;
+  if (!constraints.surfaces.empty())
+    result = constraints.onto(chord + result) - chord;
   return this->scale == 1. ? result : this->scale * result;
 }
 
@@ -126,8 +126,8 @@ double FacetPatch::gap() const
   return result;
 }
 
-template struct Guides<2>;
-template struct Guides<3>;
+template struct GeometryConstraints<2>;
+template struct GeometryConstraints<3>;
 template class Curve<2>;
 template class Curve<3>;
 } // namespace snug::geometry

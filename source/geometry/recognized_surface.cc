@@ -159,7 +159,7 @@ KnownSurface<dim> moved(KnownSurface<dim> surface, const dealii::Vector<double> 
 /// Return the least-squares fit of the distances by the Gauss-Newton method, started at @p surface.
 /// Parameters that have no influence on the distances are not changed.
 template <int dim>
-KnownSurface<dim> polished(const SurfaceSample<dim> &sample, KnownSurface<dim> surface)
+KnownSurface<dim> refined_fit(const SurfaceSample<dim> &sample, KnownSurface<dim> surface)
 {
   const unsigned int n    = 2 * dim + 3;
   const double       size = surface.kind == Kind<dim>::cone
@@ -204,7 +204,7 @@ KnownSurface<dim> polished(const SurfaceSample<dim> &sample, KnownSurface<dim> s
 
 /// Return every n-th point and normal, for the first steps of the fit.
 template <int dim>
-SurfaceSample<dim> thinned(const SurfaceSample<dim> &sample)
+SurfaceSample<dim> subsampled(const SurfaceSample<dim> &sample)
 {
   const std::size_t  most = 400;
   SurfaceSample<dim> result;
@@ -224,12 +224,12 @@ std::optional<KnownSurface<dim>> confirmed(const SurfaceSample<dim> &sample,
                                            KnownSurface<dim>         surface,
                                            double                    tolerance)
 {
-  surface = polished(few, surface);
+  surface = refined_fit(few, surface);
   if (!(few.largest_distance(surface) <= tolerance))
     return {};
   if (few.points.size() < sample.points.size())
-    surface = polished(sample, surface);
-  surface = few.faced(surface);
+    surface = refined_fit(sample, surface);
+  surface = few.oriented(surface);
   if (!(sample.largest_distance(surface) <= tolerance))
     return {};
   return surface;
@@ -241,14 +241,14 @@ std::optional<KnownSurface<2>> recognized_surface(const SurfaceSample<2> &sample
 {
   if (sample.points.size() < 5)
     return {};
-  const auto few = thinned(sample);
+  const auto few = subsampled(sample);
   return confirmed(sample, few, fitted_round(few, {}), tolerance);
 }
 
 template <>
 std::optional<KnownSurface<3>> recognized_surface(const SurfaceSample<3> &sample, double tolerance)
 {
-  const auto few   = thinned(sample);
+  const auto few   = subsampled(sample);
   const auto n     = sample.points.size();
   auto       found = std::optional<KnownSurface<3>>();
   if (n >= 6)

@@ -59,7 +59,7 @@ std::vector<state::ContactPoint> nodal_points(const Sources<dim>                
       }
   // Set shared nodes before hanging nodes, because masters of hanging nodes may show shares of
   // rows.
-  for (const auto &shared : sources.shared_nodes)
+  for (const auto &shared : sources.dependent_multipliers)
     if (!seen[shared.node] && sources.places[shared.rows[0].first].pair == p)
       points[shared.node] = shared_point(shared.rows, [&](unsigned int row) { return rows[row]; });
   for (unsigned int node = 0; node < points.size(); ++node)
@@ -177,7 +177,7 @@ void ContactOutput<dim>::write(const Sources                  &of,
                                const double                    time,
                                const state::ContactState<dim> &state)
 {
-  // The gather is collective, so it must not be called within everywhere().
+  // The gather is collective, so it must not be called within throw_collectively().
   const SurfaceFields<dim> fields{of.surface.gather(of.mesh.reference_positions()),
                                   of.surface.gather(state.positions),
                                   of.surface.gather(state.displacement)};
@@ -187,7 +187,7 @@ void ContactOutput<dim>::write(const Sources                  &of,
   const MPI_Comm comm = of.mesh.communicator();
   // Rank 0 writes. If it fails, all ranks fail, because otherwise all other ranks would wait for
   // rank 0 in the next reduction.
-  everywhere(comm, [&] {
+  throw_collectively(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
     write_text_file(directory + "/" + stem + ".vtu",

@@ -214,7 +214,7 @@ void FieldOutput<dim>::write(const Sources                             &of,
     files.push_back(stem + "." + padded(r / per_file, 4) + ".vtu");
   series.emplace_back(time, stem + ".pvtu");
   const auto pieces = of_ranks(comm, per_file, grid.piece(parameters.compression));
-  everywhere(comm, [&] {
+  throw_collectively(comm, [&] {
     if (!pieces.empty())
       write_text_file(directory + "/" + files[rank / per_file], vtu(pieces));
     if (rank != 0)

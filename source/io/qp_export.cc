@@ -125,8 +125,8 @@ private:
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &n_ranks);
     for (int turn = 0; turn < n_ranks; ++turn)
-      // Use everywhere(), because a full disk is an error of all ranks.
-      everywhere(comm, [&]() {
+      // Use throw_collectively(), because a full disk is an error of all ranks.
+      throw_collectively(comm, [&]() {
         if (turn != rank)
           return;
         std::ofstream file(path, turn == 0 ? std::ios::trunc : std::ios::app);

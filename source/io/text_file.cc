@@ -48,7 +48,7 @@ std::string padded(unsigned int number, unsigned int digits)
 void make_output_directory(const RunContext &context, const std::string &path)
 {
   // One rank tries, and all ranks fail if it fails.
-  everywhere(context.communicator(), [&] {
+  throw_collectively(context.communicator(), [&] {
     if (context.rank() != 0)
       return;
     std::error_code error;
@@ -84,7 +84,7 @@ void remove_results(const RunContext &context, const std::vector<std::string> &d
     "surface\\.(stl|csv)|control-points\\.csv|journal\\.txt|"
     "warm-start\\.\\d+\\.[01]");
   static const std::regex of_qp("(K|B|R|f|g|bounded|u|lambda)\\.(petsc|mtx)");
-  everywhere(context.communicator(), [&] {
+  throw_collectively(context.communicator(), [&] {
     if (context.rank() != 0)
       return;
     for (const auto &directory : directories)

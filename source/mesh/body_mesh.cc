@@ -23,21 +23,46 @@ namespace snug::mesh {
 template <int dim>
 struct BodyMesh<dim>::Source
 {
-  Source(MPI_Comm communicator, unsigned int degree)
+  /// Take the cells of the forest as they are, or distribute them to the ranks by parts.
+  Source(const Forest<dim>                      &forest,
+         unsigned int                            degree,
+         const CellsPerSubdomain                &by_size,
+         const std::optional<TearingParameters> &tearing)
     : fe(degree)
-    , triangulation(communicator)
-    , nodes(triangulation)
+    , distributed(forest.communicator())
+    , is_distributed(tearing || !forest.triangulation())
     , order(dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree))
-  {}
+  {
+    const auto &parameters = tearing ? *tearing : TearingParameters();
+    if (!is_distributed)
+      ids.emplace(*forest.triangulation());
+    else if (forest.triangulation())
+      parts =
+        distribute(forest.coarse(), parameters, by_size, *forest.triangulation(), distributed);
+    else
+      parts = distribute(forest.coarse(), parameters, by_size, distributed);
+    if (is_distributed)
+      nodes.reinit(distributed);
+    else
+      nodes.reinit(*forest.triangulation());
+    nodes.distribute_dofs(fe);
+  }
 
   // Members are destroyed in reverse order: the nodes before the triangulation and the element.
   dealii::FE_Q<dim>                                      fe;
-  dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
+  dealii::parallel::fullydistributed::Triangulation<dim> distributed;
+  bool                                                   is_distributed;
   dealii::DoFHandler<dim>                                nodes;
   std::vector<unsigned int>                              parts; ///< of the owned cells
+  std::optional<PlacedIds<dim>>                          ids;   ///< if the cells are the forest's
   /// Permutation from tensor-product order to the order of deal.II, which numbers nodes at
   /// vertices, on lines, on faces and inside.
   std::vector<unsigned int> order;
+
+  const dealii::Triangulation<dim> &triangulation() const { return nodes.get_triangulation(); }
+
+  /// Return the id of a cell whose coarse cell is the position in the coarse mesh.
+  dealii::CellId id(const dealii::CellId &cell) const { return ids ? ids->of(cell) : cell; }
 
   /// Return the nodes of a cell as positions in the set of local nodes.
   std::vector<unsigned int>
@@ -53,34 +78,10 @@ struct BodyMesh<dim>::Source
   }
 };
 
-/// p4est only refines the mesh. The cells are then distributed to the ranks by parts. Collective.
-template <int dim>
-void BodyMesh<dim>::triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
-                                const TearingParameters                         &tearing,
-                                Source                                          &source)
-{
-  for (const auto &body : bodies)
-    geometries.push_back(geometry::make_geometry<dim>(body));
-  const CoarseMesh<dim> coarse(geometries);
-  places             = coarse.places;
-  const auto by_size = cells_per_subdomain(dim, fe_degree, meaning);
-  if (are_refined(bodies))
-    {
-      dealii::parallel::distributed::Triangulation<dim> refined(comm);
-      create_triangulation(coarse, refined);
-      refine(bodies, coarse, refined);
-      source.parts = distribute(coarse, tearing, by_size, refined, source.triangulation);
-    }
-  else
-    source.parts = distribute(coarse, tearing, by_size, source.triangulation);
-  n_cells = source.triangulation.n_global_active_cells();
-}
-
 /// Every rank owns a range of global nodes. The ranges ascend with the rank. Collective.
 template <int dim>
-void BodyMesh<dim>::number_nodes(Source &source)
+void BodyMesh<dim>::number_nodes(const Source &source)
 {
-  source.nodes.distribute_dofs(source.fe);
   relevant = dealii::DoFTools::extract_locally_relevant_dofs(source.nodes);
   relevant.compress();
   const auto ends =
@@ -112,11 +113,11 @@ void BodyMesh<dim>::collect_nodes(const Source &source)
             // Bodies share no nodes, so each node belongs to one body.
             if (done[node])
               continue;
-            const auto point = places.point(cell->id(), source.fe.unit_support_point(i));
+            const auto point = places.point(source.id(cell->id()), source.fe.unit_support_point(i));
             done[node]       = true;
             node_body[node]  = body;
-            logical[node]    = geometries[body]->logical(point);
-            reference[node]  = geometries[body]->position(point);
+            logical[node]    = geometry(body).logical(point);
+            reference[node]  = geometry(body).position(point);
           }
       }
 }
@@ -163,24 +164,25 @@ void BodyMesh<dim>::collect_cells(const Source &source)
   for (const auto &cell : source.nodes.active_cell_iterators())
     if (cell->is_locally_owned())
       {
-        const unsigned int body = cell->material_id();
-        mesh_cells.push_back({body, source.parts[mesh_cells.size()],
-                              geometries[body]->region(places.coarse_cell(cell->id())),
+        const unsigned int   body = cell->material_id();
+        const dealii::CellId id   = source.id(cell->id());
+        mesh_cells.push_back({body, source.is_distributed ? source.parts[mesh_cells.size()] : 0,
+                              geometry(body).region(places.coarse_cell(id)),
                               source.nodes_of(cell, relevant)});
-        cell_ids.push_back(cell->id());
+        cell_ids.push_back(id);
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
             // Boundary ids are indices among the boundary names of the body, see CoarseMesh.
-            mesh_faces.push_back(
-              {body,
-               cell->face(f)->boundary_id(),
-               static_cast<unsigned int>(mesh_cells.size() - 1),
-               f,
-               oriented_face_nodes<dim>(mesh_cells.back().nodes, fe_degree, f),
-               geometries[body]->known_surface(places.coarse_cell(cell->id()), f),
-               {}});
+            mesh_faces.push_back({body,
+                                  cell->face(f)->boundary_id(),
+                                  static_cast<unsigned int>(mesh_cells.size() - 1),
+                                  f,
+                                  oriented_face_nodes<dim>(mesh_cells.back().nodes, fe_degree, f),
+                                  geometry(body).known_surface(places.coarse_cell(id), f),
+                                  {}});
       }
-  neighbours = owned_neighbours(source.triangulation);
+  if (source.is_distributed)
+    neighbours = owned_neighbours(source.triangulation());
 }
 
 /// All nodes of ghost cells are relevant, so nodes_of() finds a local index for each node.
@@ -188,7 +190,7 @@ template <int dim>
 void BodyMesh<dim>::collect_interior_faces(const Source &source)
 {
   std::vector<unsigned int> ghosts;
-  inner_faces = mesh::interior_faces<dim>(source.triangulation, ghosts);
+  inner_faces = mesh::interior_faces<dim>(source.triangulation(), ghosts);
   other_cells.resize(ghosts.size());
   std::map<unsigned int, unsigned int> place;
   for (unsigned int i = 0; i < ghosts.size(); ++i)
@@ -199,8 +201,7 @@ void BodyMesh<dim>::collect_interior_faces(const Source &source)
       if (found == place.end())
         continue;
       const unsigned int body    = cell->material_id();
-      other_cells[found->second] = {body, 0,
-                                    geometries[body]->region(places.coarse_cell(cell->id())),
+      other_cells[found->second] = {body, 0, geometry(body).region(places.coarse_cell(cell->id())),
                                     source.nodes_of(cell, relevant)};
     }
 }
@@ -222,7 +223,7 @@ void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParamete
       for (const unsigned int f : cell->face_indices())
         if (cell->at_boundary(f))
           {
-            const auto &geometry  = *geometries[face->body];
+            const auto &geometry  = this->geometry(face->body);
             const auto &body      = bodies[face->body];
             const auto &wanted    = body.sampled_boundaries;
             const auto &name      = geometry.boundary_names()[face->boundary];
@@ -232,7 +233,7 @@ void BodyMesh<dim>::collect_samples(const std::vector<geometry::BodyMeshParamete
                 const unsigned int first = reference.size();
                 for (const unsigned int i : oriented_face_nodes<dim>(all, surface_degree, f))
                   {
-                    const auto point = places.point(cell->id(), lattice[i].point);
+                    const auto point = places.point(source.id(cell->id()), lattice[i].point);
                     face->samples.push_back(reference.size());
                     reference.push_back(geometry.position(point));
                     logical.push_back(geometry.logical(point));
@@ -285,29 +286,42 @@ void BodyMesh<dim>::snap_to_axis()
 }
 
 template <int dim>
+BodyMesh<dim>::BodyMesh(const Forest<dim>                      &forest,
+                        unsigned int                            degree,
+                        const Idealization                     &idealization,
+                        const std::optional<TearingParameters> &tearing)
+  : comm(forest.communicator())
+  , fe_degree(degree)
+  , meaning(idealization)
+  , geometries(forest.geometries())
+  , places(forest.coarse().places)
+{
+  const Source source(forest, degree, cells_per_subdomain(dim, fe_degree, meaning), tearing);
+  n_cells = source.triangulation().n_global_active_cells();
+  number_nodes(source);
+  // throw_collectively() is needed because a formula may fail at a position that only one rank has.
+  throw_collectively(comm, [&]() { collect_nodes(source); });
+  collect_hanging(source);
+  collect_cells(source);
+  if (source.is_distributed)
+    collect_interior_faces(source);
+  // On curved faces, positions of hanging nodes from the geometry differ from the interpolation of
+  // the masters. The displacement at hanging nodes is interpolated, so the position must be
+  // interpolated as well. Otherwise rigid motions would cause strains.
+  interpolate_hanging(reference);
+  throw_collectively(comm, [&]() { collect_samples(forest.bodies(), source); });
+  if (idealization.is_axisymmetric())
+    snap_to_axis();
+}
+
+template <int dim>
 BodyMesh<dim>::BodyMesh(MPI_Comm                                         communicator,
                         const std::vector<geometry::BodyMeshParameters> &bodies,
                         unsigned int                                     degree,
                         const Idealization                              &idealization,
                         const TearingParameters                         &tearing)
-  : comm(communicator), fe_degree(degree), meaning(idealization)
-{
-  Source source(communicator, degree);
-  triangulate(bodies, tearing, source);
-  number_nodes(source);
-  // everywhere() is needed because a formula may fail at a position that only one rank has.
-  everywhere(communicator, [&]() { collect_nodes(source); });
-  collect_hanging(source);
-  collect_cells(source);
-  collect_interior_faces(source);
-  // On curved faces, positions of hanging nodes from the geometry differ from the interpolation of
-  // the masters. The displacement at hanging nodes is interpolated, so the position must be
-  // interpolated as well. Otherwise rigid motions would cause strains.
-  interpolate_hanging(reference);
-  everywhere(communicator, [&]() { collect_samples(bodies, source); });
-  if (idealization.is_axisymmetric())
-    snap_to_axis();
-}
+  : BodyMesh(Forest<dim>(communicator, bodies), degree, idealization, tearing)
+{}
 
 /// upper_bound skips ranks without nodes, whose ranges are empty.
 template <int dim>

@@ -49,7 +49,7 @@ shapes_of_bodies(const std::size_t                                              
                  const std::function<std::vector<CellShape<dim>>(unsigned int)> &of_body)
 {
   std::vector<std::vector<CellShape<dim>>> result;
-  everywhere(communicator, [&]() {
+  throw_collectively(communicator, [&]() {
     for (unsigned int body = 0; body < n_bodies; ++body)
       result.push_back(of_body(body));
   });

@@ -22,6 +22,9 @@ namespace {
 template <int dim>
 using Refined = dealii::parallel::distributed::Triangulation<dim>;
 
+template <int dim>
+using BodyCells = std::vector<typename Refined<dim>::active_cell_iterator>;
+
 /// Return the key {level and coarse cell, path of children} of a cell.
 ///
 /// Each level adds dim bits to the path, so 64 bits suffice for 21 levels in 3D.
@@ -35,77 +38,85 @@ typename CellSet<dim>::Key key(const dealii::CellId &cell)
   return {{std::uint64_t(children.size()) << 32 | cell.get_coarse_cell_id(), path}};
 }
 
-/// Return whether all cells of the body have the same level, so that the cells lie in layers.
+/// Return the owned cells of each body in the order of the space-filling curve of p4est. Over all
+/// ranks, this order depends neither on the number of ranks nor on the steps of refinement.
+template <int dim>
+std::vector<BodyCells<dim>> owned_cells(const Refined<dim> &refined, const unsigned int n_bodies)
+{
+  std::vector<BodyCells<dim>> cells(n_bodies);
+  for (const auto &cell : refined.active_cell_iterators())
+    if (cell->is_locally_owned())
+      cells[cell->material_id()].push_back(cell);
+  for (auto &of_body : cells)
+    std::sort(of_body.begin(), of_body.end(),
+              [](const auto &a, const auto &b) { return a->id() < b->id(); });
+  return cells;
+}
+
+/// Return whether all cells of a body have the same level, so that the cells lie in layers.
 /// Collective.
 template <int dim>
-bool has_one_level(unsigned int body, const Refined<dim> &refined)
+bool has_one_level(const BodyCells<dim> &cells, const MPI_Comm communicator)
 {
   // The maximum of -level is minus the minimum level, so one reduction finds both.
   int levels[2] = {-1, -100}; // maximum level, and minus the minimum level
-  for (const auto &cell : refined.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->material_id() == body)
-      {
-        levels[0] = std::max(levels[0], cell->level());
-        levels[1] = std::max(levels[1], -cell->level());
-      }
-  MPI_Allreduce(MPI_IN_PLACE, levels, 2, MPI_INT, MPI_MAX, deal_ii_compat::communicator(refined));
+  for (const auto &cell : cells)
+    {
+      levels[0] = std::max(levels[0], cell->level());
+      levels[1] = std::max(levels[1], -cell->level());
+    }
+  MPI_Allreduce(MPI_IN_PLACE, levels, 2, MPI_INT, MPI_MAX, communicator);
   return levels[0] == -levels[1];
 }
 
-/// Return the shapes of the owned cells of a body in the order of active cells.
 template <int dim>
 std::vector<CellShape<dim>> shapes_of(const CoarseMesh<dim> &coarse,
-                                      unsigned int           body,
+                                      const unsigned int     body,
                                       const PlacedIds<dim>  &ids,
-                                      const Refined<dim>    &refined)
+                                      const BodyCells<dim>  &cells)
 {
   std::vector<CellShape<dim>> shapes;
-  for (const auto &cell : refined.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->material_id() == body)
-      shapes.emplace_back([&](const dealii::Point<dim> &unit) {
-        return coarse.geometries[body]->position(coarse.places.point(ids.of(cell->id()), unit));
-      });
+  for (const auto &cell : cells)
+    shapes.emplace_back([&](const dealii::Point<dim> &unit) {
+      return coarse.geometries[body]->position(coarse.places.point(ids.of(cell->id()), unit));
+    });
   return shapes;
 }
 
-/// Return the owned cells of a body in the order of active cells. Collective.
+/// Return the set of the owned cells of a body. Collective.
 template <int dim>
 CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
                       unsigned int                       body,
                       const std::vector<CellShape<dim>> &shapes,
                       const PlacedIds<dim>              &ids,
-                      const Refined<dim>                &refined)
+                      const BodyCells<dim>              &cells,
+                      const MPI_Comm                     communicator)
 {
   const auto  &geometry = *coarse.geometries[body];
   CellSet<dim> set;
-  set.communicator = deal_ii_compat::communicator(refined);
+  set.communicator = communicator;
   set.size         = geometry.extent();
-  for (const auto &cell : refined.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->material_id() == body)
-      {
-        const unsigned int   number = cell->global_active_cell_index();
-        const dealii::CellId id     = ids.of(cell->id());
-        set.centres.push_back(
-          geometry.logical(coarse.places.point(id, geometry::unit_centre<dim>())));
-        set.numbers.push_back(number);
-        set.keys.push_back(key<dim>(id));
-        for (const unsigned int f : cell->face_indices())
-          if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
+  for (const auto &cell : cells)
+    {
+      const dealii::CellId id = ids.of(cell->id());
+      set.centres.push_back(
+        geometry.logical(coarse.places.point(id, geometry::unit_centre<dim>())));
+      set.numbers.push_back(cell->global_active_cell_index());
+      set.keys.push_back(key<dim>(id));
+      for (const unsigned int f : cell->face_indices())
+        if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
+          // Only one of the two cells adds the pair: the first cell if both are equal in size,
+          // otherwise the finer cell. The other cell may belong to another rank.
+          if (cell->id() < cell->neighbor(f)->id() || cell->neighbor_is_coarser(f))
             {
               const unsigned int other = cell->neighbor(f)->global_active_cell_index();
-              // Only one of the two cells adds the pair: the cell with the smaller number if both
-              // are equal in size, otherwise the finer cell. The other cell may belong to another
-              // rank.
-              if (number < other || cell->neighbor_is_coarser(f))
-                {
-                  set.neighbours.push_back({{number, other}});
-                  set.areas.push_back(shapes[set.numbers.size() - 1].section(f / 2));
-                }
+              set.neighbours.push_back({{set.numbers.back(), other}});
+              set.areas.push_back(shapes[set.numbers.size() - 1].section(f / 2));
             }
-      }
+    }
   set.n_global  = dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(), set.communicator);
   set.n_slender = count_slender(shapes, set.communicator);
-  set.layered   = geometry.has_grid() && has_one_level(body, refined);
+  set.layered   = geometry.has_grid() && has_one_level<dim>(cells, communicator);
   return set;
 }
 
@@ -163,29 +174,27 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
                                      const Refined<dim>      &refined,
                                      dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
+  const MPI_Comm            communicator = deal_ii_compat::communicator(refined);
+  const unsigned int        n_bodies     = coarse.geometries.size();
   const PlacedIds<dim>      ids(refined);
+  const auto                cells = owned_cells<dim>(refined, n_bodies);
   std::vector<CellSet<dim>> sets;
-  const auto                shapes =
-    shapes_of_bodies<dim>(coarse.geometries.size(), deal_ii_compat::communicator(refined),
-                          [&](const unsigned int body) {
-                            return shapes_of(coarse, body, ids, refined);
-                          });
-  for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
-    sets.push_back(cell_set(coarse, body, shapes[body], ids, refined));
+  const auto shapes = shapes_of_bodies<dim>(n_bodies, communicator, [&](const unsigned int body) {
+    return shapes_of(coarse, body, ids, cells[body]);
+  });
+  for (unsigned int body = 0; body < n_bodies; ++body)
+    sets.push_back(cell_set(coarse, body, shapes[body], ids, cells[body], communicator));
   const Parts parts = decide_parts(sets, parameters, by_size);
   const auto  ranks =
-    ranks_of_parts(parts.cells,
-                   dealii::Utilities::MPI::n_mpi_processes(deal_ii_compat::communicator(refined)));
-  // Cell sets list the owned cells of a body in the order of the loop below.
-  std::vector<unsigned int>                          next(sets.size(), 0);
+    ranks_of_parts(parts.cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
   dealii::LinearAlgebra::distributed::Vector<double> rank_of_cell(
     refined.global_active_cell_index_partitioner().lock());
   std::map<unsigned int, std::vector<CellPart>> sent;
-  for (const auto &cell : refined.active_cell_iterators())
-    if (cell->is_locally_owned())
+  for (unsigned int body = 0; body < n_bodies; ++body)
+    for (unsigned int i = 0; i < cells[body].size(); ++i)
       {
-        const unsigned int body                        = cell->material_id();
-        const unsigned int part                        = parts.of_body[body].part[next[body]++];
+        const auto        &cell                        = cells[body][i];
+        const unsigned int part                        = parts.of_body[body].part[i];
         const unsigned int rank                        = ranks[body][part];
         rank_of_cell[cell->global_active_cell_index()] = rank;
         // Parts are sent separately, because the description cannot hold the parts.

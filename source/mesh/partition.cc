@@ -6,18 +6,14 @@ const ChoiceTable<bool(const CellSet<dim> &)> &partition_table()
 {
   // The parameter reference prints the texts of this table.
   static const ChoiceTable<bool(const CellSet<dim> &)> table = {
-    {"auto",
-     "grid for boxes and rings that are not refined locally, METIS for "
-     "others",
+    {"auto", "grid for boxes and rings without local refinement, METIS for others",
      // partition_table() in the header states the cost of ragged parts.
      [](const CellSet<dim> &set) { return set.layered; }},
     {"grid",
-     "a grid of slabs along the axes, cut between layers of cells; near "
-     "cubes, which need fewest iterations",
+     "grid of nearly cubic subdomains with cuts between layers of cells, which needs the fewest "
+     "iterations",
      [](const CellSet<dim> &) { return true; }},
-    {"METIS",
-     "parts of the cell graph with few shared faces, for meshes without "
-     "layers",
+    {"METIS", "partition of the cell graph with few shared faces, for meshes without layers",
      [](const CellSet<dim> &) { return false; }}};
   return table;
 }

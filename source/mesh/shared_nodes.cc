@@ -39,8 +39,7 @@ void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
 }
 
 template <int dim>
-typename BodyMesh<dim>::Field owners_values(const BodyMesh<dim>                 &mesh,
-                                            const typename BodyMesh<dim>::Field &field)
+Field<dim> owners_values(const BodyMesh<dim> &mesh, const Field<dim> &field)
 {
   const unsigned int  rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
   std::vector<double> values(static_cast<std::size_t>(dim) * mesh.n_local_nodes(), 0.);
@@ -49,15 +48,15 @@ typename BodyMesh<dim>::Field owners_values(const BodyMesh<dim>                 
       for (unsigned int c = 0; c < dim; ++c)
         values[dim * node + c] = field[node][c];
   sum_at_shared_nodes(mesh, dim, values);
-  typename BodyMesh<dim>::Field result(mesh.n_local_nodes());
+  Field<dim> result(mesh.n_local_nodes());
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     for (unsigned int c = 0; c < dim; ++c)
       result[node][c] = values[dim * node + c];
   return result;
 }
 
-template BodyMesh<2>::Field owners_values(const BodyMesh<2> &, const BodyMesh<2>::Field &);
-template BodyMesh<3>::Field owners_values(const BodyMesh<3> &, const BodyMesh<3>::Field &);
+template Field<2> owners_values(const BodyMesh<2> &, const Field<2> &);
+template Field<3> owners_values(const BodyMesh<3> &, const Field<3> &);
 template void sum_at_shared_nodes(const mesh::BodyMesh<2> &, unsigned int, std::vector<double> &);
 template void sum_at_shared_nodes(const mesh::BodyMesh<3> &, unsigned int, std::vector<double> &);
 } // namespace snug::mesh

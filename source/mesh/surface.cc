@@ -170,7 +170,7 @@ void Surface<dim>::find_owned(const std::map<unsigned int, unsigned int> &index)
 }
 
 template <int dim>
-typename Surface<dim>::Field Surface<dim>::gather(const typename BodyMesh<dim>::Field &field) const
+typename Surface<dim>::Field Surface<dim>::gather(const mesh::Field<dim> &field) const
 {
   Assert(field.size() == mesh.n_points() || field.size() == mesh.n_local_nodes(),
          dealii::ExcDimensionMismatch(field.size(), mesh.n_points()));
@@ -234,7 +234,7 @@ std::vector<unsigned int> Surface<dim>::cells_of(const std::vector<unsigned int>
 }
 
 template <int dim>
-void Surface<dim>::add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const
+void Surface<dim>::add_owned(const Field &surface_field, mesh::Field<dim> &field) const
 {
   // Surface fields are equal on all ranks, so only owners add values.
   for (const auto &node : owned)

@@ -15,9 +15,12 @@ void TearingParameters::declare(Entries &entries)
       throw std::invalid_argument("no subdomain");
     subdomains = number;
   };
-  entries.add("Subdomains", {text, read}, allowed("auto or a whole number of at least 1"),
-              "Wanted number of subdomains of all bodies and ranks; auto: by size. There are at "
-              "least as many as ranks.");
-  entries.add("Method", method, choice(names(partition_table<3>())), "How a body is divided.");
+  entries.add("Subdomains", {text, read},
+              with_meanings(allowed("auto or a whole number of at least 1"),
+                            {{"auto", "number that follows from the numbers of cells and ranks"}}),
+              "The target number of subdomains of all bodies on all ranks. The minimum is one per "
+              "rank.");
+  entries.add("Method", method, choice(names(partition_table<3>())),
+              "The method that divides a body into subdomains.");
 }
 } // namespace snug::mesh

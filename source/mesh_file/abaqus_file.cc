@@ -17,9 +17,9 @@ std::string upper_case(std::string text)
   return text;
 }
 
-/// The type @p name, in upper case, is a family, a number of nodes and letters for variants of
-/// the formulation (R, H, I, M, T), which do not matter here. What 6 or 8 nodes mean depends on
-/// the family: C3D6 is a prism, CPS6 a triangle.
+/// Return the element type @p name, which is in upper case. A name consists of a family, a number
+/// of nodes and letters for variants of the formulation (R, H, I, M, T), which are ignored. The
+/// shape depends on the family: C3D6 is a prism, CPS6 a triangle.
 ElementType abaqus_type(const std::string &name, unsigned long line)
 {
   using S                                      = ElementShape;
@@ -34,46 +34,33 @@ ElementType abaqus_type(const std::string &name, unsigned long line)
                                                   {9, S::quadrilateral}};
   static const std::map<unsigned int, S> thin  = {{2, S::line}, {3, S::line}};
   using Families = std::vector<std::pair<std::string, const std::map<unsigned int, S> *>>;
-  // a prefix of other families must come behind them: CPE would take CPEG4, S STRI3
+  // A family that is a prefix of others follows them, because otherwise CPE would match CPEG4, and
+  // S would match STRI3.
   static const Families families = {{"DC3D", &solid}, {"C3D", &solid}, {"CPS", &flat},
                                     {"CPEG", &flat},  {"CPE", &flat},  {"CAX", &flat},
                                     {"SFM3D", &flat}, {"STRI", &flat}, {"SAX", &thin},
                                     {"S", &flat},     {"M3D", &flat},  {"R3D", &flat},
                                     {"DC2D", &flat},  {"T2D", &thin},  {"T3D", &thin},
                                     {"R2D", &thin},   {"DC1D", &thin}};
-  // A family with another number of nodes is passed over, since S also begins types that are
-  // no shells (SPRINGA, without a number: atoi gives 0).
+  // A family with another number of nodes is skipped, because S also begins types that are no
+  // shells (SPRINGA has no number, and atoi returns 0).
   for (const auto &family : families)
     if (name.rfind(family.first, 0) == 0)
       {
-        // SAX1 and SAX2 are called by their order, the others by their number of nodes
+        // The names SAX1 and SAX2 contain the order, all others the number of nodes.
         const unsigned int n =
           std::atoi(name.c_str() + family.first.size()) + (family.first == "SAX" ? 1 : 0);
         const auto found = family.second->find(n);
         if (found != family.second->end())
           return {found->second, n};
       }
-  throw error_at_line(line, "elements of the type '" + name + "' cannot be read");
+  throw error_at_line(line, "element type '" + name + "' is not supported");
 }
 
-/// Of C3D27, whose centre comes before its faces, which are in the order S1 to S6.
-const MiddleOrder &abaqus_hexahedron()
-{
-  static const MiddleOrder order = []() {
-    MiddleOrder result = vtk_middles(ElementShape::hexahedron);
-    result.resize(12);
-    result.push_back({0, 1, 2, 3, 4, 5, 6, 7});
-    const auto &faces = faces_of(ElementShape::hexahedron);
-    result.insert(result.end(), faces.begin(), faces.end());
-    return result;
-  }();
-  return order;
-}
-
-/// Reads an .inp file keyword by keyword.
+/// This class reads an .inp file keyword by keyword.
 ///
-/// A keyword line begins with one * and has options "KEY=VALUE" behind commas; data lines follow
-/// up to the next keyword; ** is a comment. Keywords and names of sets mean the same in upper and
+/// A keyword line begins with one * and has options "KEY=VALUE" behind commas. Data lines follow up
+/// to the next keyword; ** begins a comment. Keywords and names of sets are equal in upper and
 /// lower case. Nodes and elements have arbitrary positive numbers.
 class AbaqusReader
 {
@@ -99,23 +86,23 @@ public:
   }
 
 private:
-  MeshText                                       in;
-  unsigned long                                  at = 0; ///< line that is read
-  std::string                                    keyword;
-  std::map<std::string, std::string>             options; ///< of the keyword
-  ElementType                                    type{ElementShape::line, 0};
-  std::vector<std::string>                       pending; ///< an element over several lines
-  unsigned int                                   n_parts = 0;
-  MeshFile                                       mesh;
-  PointNumbers                                   numbers;
-  std::map<unsigned long, unsigned int>          element_index;
+  MeshText                              in;
+  unsigned long                         at = 0; ///< current line
+  std::string                           keyword;
+  std::map<std::string, std::string>    options; ///< options of the keyword
+  ElementType                           type{ElementShape::line, 0};
+  std::vector<std::string>              pending; ///< an incomplete element of several lines
+  unsigned int                          n_parts = 0;
+  MeshFile                              mesh;
+  PointNumbers                          numbers;
+  std::map<unsigned long, unsigned int> element_index;
   std::map<std::string, std::set<unsigned long>> sets;
-  std::map<std::string, std::string>             groups; ///< as they are written first
+  std::map<std::string, std::string>             groups; ///< upper case -> name as it occurs first
 
   void begin_keyword(const std::string &line)
   {
     if (!pending.empty())
-      throw error_at_line(at, "element " + pending[0] + " is cut off");
+      throw error_at_line(at, "element " + pending[0] + " is incomplete");
     options.clear();
     for (const auto &part : comma_list(line))
       {
@@ -125,8 +112,8 @@ private:
           equals == std::string::npos ? "" : dealii::Utilities::trim(part.substr(equals + 1));
       }
     keyword = upper_case(comma_list(line)[0]);
-    // Every part numbers its nodes and elements from 1, and the assembly places instances of the
-    // parts; without reading that, numbers of two parts would clash.
+    // Several parts are refused, because every part numbers its nodes and elements from 1, and the
+    // instances that place the parts are not read.
     if (keyword == "*PART" && ++n_parts > 1)
       throw error_at_line(at, "the file has more than one part");
     refuse_generation();
@@ -134,8 +121,8 @@ private:
       type = abaqus_type(upper_case(options["TYPE"]), at);
   }
 
-  /// What places or makes nodes and elements is not read, and must not be passed over: the mesh
-  /// would be another one.
+  /// Refuse keywords that place or generate nodes and elements, because they are not supported and
+  /// would change the mesh.
   void refuse_generation() const
   {
     static const std::set<std::string> others = {"*NGEN",  "*NFILL",  "*NCOPY",   "*NMAP",
@@ -150,11 +137,11 @@ private:
 
   [[noreturn]] void refuse(const std::string &what) const
   {
-    throw error_at_line(at, what + " is not read; save all nodes and elements in one file, the "
-                                   "nodes at their places in Cartesian coordinates");
+    throw error_at_line(at, what + " is not supported; write all nodes and elements to one file, "
+                                   "in Cartesian coordinates");
   }
 
-  /// Data of keywords that are not listed here (materials, steps, node sets) are skipped.
+  /// Read a data line. Data of other keywords (materials, steps, node sets) are skipped.
   void read_data(const std::vector<std::string> &words, const std::string &line)
   {
     if (keyword == "*NODE")
@@ -166,12 +153,13 @@ private:
     else if (keyword == "*SURFACE")
       read_surface(words);
     else if (keyword == "*INSTANCE")
-      refuse("*INSTANCE that moves its part");
+      refuse("*INSTANCE with a translation or rotation");
     else if (keyword.empty())
       throw error_at_line(at, "a keyword is expected, not '" + line + "'");
   }
 
-  /// Number and 2 or 3 coordinates; direction cosines of a shell's normal may follow.
+  /// Read a node: its number and 2 or 3 coordinates. Direction cosines of a shell's normal may
+  /// follow.
   void read_node(const std::vector<std::string> &words)
   {
     if (words.size() < 3)
@@ -183,7 +171,8 @@ private:
     mesh.points.push_back(point);
   }
 
-  /// Number and nodes. Elements of many nodes, such as C3D20, go on in further lines.
+  /// Read an element: its number and nodes. Elements of many nodes, such as C3D20, continue on
+  /// further lines.
   void read_element(const std::vector<std::string> &words)
   {
     pending.insert(pending.end(), words.begin(), words.end());
@@ -197,33 +186,32 @@ private:
     std::vector<unsigned int> nodes;
     for (unsigned int i = 1; i <= type.n_nodes; ++i)
       nodes.push_back(numbers.index(to_whole(pending[i], at), name, at));
-    // Abaqus lists the corners first, then the nodes on edges, but of lines the middle second.
+    // Abaqus lists the corners before the nodes on edges, but the middle node of a line second.
     if (type.shape == ElementShape::line)
       std::swap(nodes[1], nodes.back());
-    add_nodes(mesh, element, nodes,
-              type.n_nodes == 27 ? abaqus_hexahedron() : vtk_middles(type.shape));
+    add_nodes(mesh, element, nodes, abaqus_middles(type.shape));
     mesh.elements.push_back(element);
     pending.clear();
     if (!options["ELSET"].empty())
       add_to_set(options["ELSET"], number);
   }
 
-  /// Sets are found in any case of letters; the group has the name as it is written first.
-  /// Abaqus/CAE makes sets for its own use, such as _Surf-1_S2 of faces of a surface, which are no
-  /// groups but would be regions.
+  /// Add an element to a set. Names of sets are equal in upper and lower case, and the group has
+  /// the name as it occurs first. Internal sets of Abaqus/CAE, such as _Surf-1_S2 for faces of a
+  /// surface, are no groups, because they would become regions.
   void add_to_set(const std::string &name, unsigned long number)
   {
     const auto found = element_index.find(number);
     if (found == element_index.end())
       throw error_at_line(at, "set '" + name + "' has the element " + std::to_string(number) +
-                                ", which is not there");
+                                ", which does not exist");
     const std::string key = upper_case(name);
-    // a set that is added to itself would double with every line
+    // An element is added once, because a set that is added to itself would double with every line.
     if (sets[key].insert(number).second && name[0] != '_')
       mesh.elements[found->second].groups.push_back(groups.emplace(key, name).first->second);
   }
 
-  /// Either first, last and increment (GENERATE), or any list of elements and other sets.
+  /// Read a set: first, last and increment (GENERATE), or a list of elements and other sets.
   void read_set(const std::vector<std::string> &words)
   {
     const std::string name = options["ELSET"];
@@ -242,7 +230,7 @@ private:
         add_to_set(name, number);
   }
 
-  /// Elements of a set or, by its number, one.
+  /// Return the elements of the set @p word, or the element with the number @p word.
   std::vector<unsigned long> elements_of(const std::string &word) const
   {
     const auto found = sets.find(upper_case(word));
@@ -251,11 +239,11 @@ private:
     return {to_whole(word, at)};
   }
 
-  /// Lines "element or set, face", such as "_Surf-1_S2, S2": Abaqus/CAE makes an internal set for
-  /// each face number of a surface.
+  /// Read a line "element or set, face" of a surface, such as "_Surf-1_S2, S2" with an internal set
+  /// of Abaqus/CAE, which has one for each face number of a surface.
   void read_surface(const std::vector<std::string> &words)
   {
-    // Surfaces of nodes have no faces; ELEMENT is the default of TYPE.
+    // Surfaces of nodes have no faces. ELEMENT is the default of TYPE.
     if (options.count("TYPE") > 0 && upper_case(options["TYPE"]) != "ELEMENT")
       return;
     const std::string name = options["NAME"];
@@ -264,8 +252,8 @@ private:
         const auto found = element_index.find(number);
         if (found == element_index.end())
           throw error_at_line(at, "surface '" + name + "' has the element " +
-                                    std::to_string(number) + ", which is not there");
-        // a copy, since add_face() lets the list of elements grow
+                                    std::to_string(number) + ", which does not exist");
+        // The cell is copied, because add_face() may reallocate the list of elements.
         const MeshFile::Element cell  = mesh.elements[found->second];
         const std::string       face  = words.size() > 1 ? upper_case(words[1]) : "";
         const auto             &faces = faces_of(cell.shape);
@@ -277,8 +265,7 @@ private:
       }
   }
 
-  /// Faces of surfaces are elements one dimension lower, as other formats have them; messages show
-  /// the number of the cell.
+  /// Add a face of a surface as an element one dimension lower, with the number of the cell.
   void add_face(const MeshFile::Element         &cell,
                 const std::vector<unsigned int> &corners,
                 const std::string               &name)

@@ -4,7 +4,7 @@
 
 namespace snug::mesh_file {
 namespace {
-/// Between unit vectors, to rounding also if it is small [radian].
+/// Return the angle between unit vectors [radian], accurate to rounding also if the angle is small.
 template <int dim>
 double angle(const dealii::Tensor<1, dim> &a, const dealii::Tensor<1, dim> &b)
 {
@@ -18,7 +18,7 @@ template <int dim>
 BodySurface<dim>::BodySurface(std::vector<Point>            the_points,
                               Middles                       the_middles,
                               std::vector<Facet>            the_facets,
-                              const std::set<unsigned int> &whole)
+                              const std::set<unsigned int> &smooth)
   : points(std::move(the_points)), middles(std::move(the_middles)), facets(std::move(the_facets))
 {
   for (unsigned int f = 0; f < facets.size(); ++f)
@@ -32,7 +32,7 @@ BodySurface<dim>::BodySurface(std::vector<Point>            the_points,
         ridges[ridge].facets.push_back(f);
     }
   for (auto &ridge : ridges)
-    ridge.second.is_feature = stands_out(ridge.first, whole);
+    ridge.second.is_feature = stands_out(ridge.first, smooth);
   divide();
   find_flats();
 }
@@ -71,7 +71,7 @@ std::array<dealii::Tensor<1, dim>, 2> BodySurface<dim>::quadratic(const Corners 
   if (found == middles.end())
     return {};
   const Vector m = points[found->second] - 0.5 * (points[edge[0]] + points[edge[1]]);
-  // straight but for rounding
+  // The edge is straight up to rounding.
   if (m.norm() <= 1e-13 * size)
     return {};
   return {{4. * m, 4. * m}};
@@ -127,7 +127,8 @@ dealii::Tensor<1, 3> BodySurface<3>::normal_at(const unsigned int facet, const C
         {std::make_shared<geometry::Curve<3>>(points[own[0]], points[own[1]], quadratic(own)),
          own[0] != c[i]});
     }
-  // across, from the middle of the edge, and along it
+  // The normal is the cross product of the derivatives across the edge, at its middle, and along
+  // the edge.
   const auto corner = [&](const unsigned int i) {
     return geometry::FacetPatch::corner((side + i) % c.size(), c.size());
   };
@@ -147,12 +148,12 @@ double BodySurface<dim>::kink(const Corners &ridge) const
 }
 
 template <int dim>
-bool BodySurface<dim>::stands_out(const Corners &ridge, const std::set<unsigned int> &whole) const
+bool BodySurface<dim>::stands_out(const Corners &ridge, const std::set<unsigned int> &smooth) const
 {
   const auto &at = ridges.at(ridge).facets;
   if (at.size() != 2 || facets[at[0]].boundary != facets[at[1]].boundary)
     return true;
-  return whole.count(facets[at[0]].boundary) == 0 && kink(ridge) > 30.;
+  return smooth.count(facets[at[0]].boundary) == 0 && kink(ridge) > 30.;
 }
 
 template <int dim>
@@ -184,8 +185,9 @@ void BodySurface<dim>::divide()
       }
 }
 
-/// One plane pair of facets may be a chance, as at an inflection or of a quadrilateral that was
-/// cut into triangles; a facet whose neighbours all lie in its plane is none.
+/// Find the plane regions. A single pair of facets in one plane is no region, because it may be an
+/// inflection or a quadrilateral that was split into triangles. A region needs a facet in whose
+/// plane all of its neighbours lie.
 template <int dim>
 void BodySurface<dim>::find_flats()
 {

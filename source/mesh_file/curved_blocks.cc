@@ -16,7 +16,7 @@ Corners corners_of(const MeshFile::Element &cell, const Corners &local)
   return result;
 }
 
-/// Of a face, as it goes round; those of a line are the line.
+/// Return the edges of a face, each in ascending order; a line has one edge.
 std::vector<Corners> edges_of(const Corners &face)
 {
   std::vector<Corners> result;
@@ -25,7 +25,7 @@ std::vector<Corners> edges_of(const Corners &face)
   return result;
 }
 
-/// Adds pieces to a mesh, and moves the middles of split elements.
+/// This class adds pieces to a mesh, and moves the middles of split elements.
 template <int dim>
 class Curving
 {
@@ -66,7 +66,8 @@ public:
         add_facet(f);
   }
 
-  /// Onto straight edges and facets, or where they lie.
+  /// Move the middles of split elements to the straight edges and facets or, if @p curved, to the
+  /// true surface.
   void place_middles(const bool curved)
   {
     if (cells.split == nullptr)
@@ -81,7 +82,7 @@ public:
             edges.insert(own.begin(), own.end());
             for (const Corners &edge : own)
               place(edge, {edge}, curved ? 1. : 0.);
-            // weights that the middle nodes of a quadratic element have in its middle
+            // These are the weights of the middle nodes of a quadratic element at its centre.
             if (dim == 3)
               place(face, {own.begin(), own.end()}, curved ? face.size() == 3 ? 4. / 9. : 0.5 : 0.);
           }
@@ -104,8 +105,8 @@ private:
   const SplitCells                      &cells;
   const BodySurface<dim>                &surface;
   const CurvedBoundary<dim>             &boundary;
-  std::vector<const MeshFile::Element *> near; ///< those with curved edges, and some others
-  /// middles of curved facets
+  std::vector<const MeshFile::Element *> near; ///< all cells with curved edges, and some others
+  /// middle of a curved facet -> patch and coordinates
   std::map<unsigned int, std::pair<Patch, dealii::Point<2>>> centres;
 
   void add(const Corners &vertices, const Patch &patch, const Coordinate &at)
@@ -114,7 +115,7 @@ private:
     const Corners                            key = sorted(vertices);
     for (const unsigned int vertex : key)
       piece.at.push_back(at.at(vertex));
-    // edges of a facet are pieces of its curves already
+    // emplace() keeps existing pieces, because edges of a facet are already pieces of its curves.
     mesh.pieces.emplace(key, piece);
   }
 
@@ -144,12 +145,12 @@ private:
       {
         add(part, boundary.patches[f], at);
         if (cells.split != nullptr)
-          for (const unsigned int v : {1, 2}) // from the corner's edges to the centre, which is 3
+          for (const unsigned int v : {1, 2}) // edge middles; vertex 3 is the centre
             add({part[v], part[3]}, boundary.patches[f], at);
       }
   }
 
-  /// The mean of the corners, and @p weight times the offsets of the edges.
+  /// Place the middle of @p corners at their mean plus @p weight times the offsets of the edges.
   void place(const Corners &corners, const std::set<Corners> &edges, const double weight)
   {
     dealii::Point<dim> sum;
@@ -181,7 +182,7 @@ void curve_blocks(geometry::BlockMesh<dim> &mesh,
   std::copy(surface.points.begin(), surface.points.end(), mesh.vertices.begin());
   Curving<dim> curving(mesh, cells, surface, boundary);
   curving.place_middles(false);
-  std::map<unsigned int, double> least; ///< of blocks with curves, when straight
+  std::map<unsigned int, double> least; ///< blocks with curves -> scaled Jacobian when straight
   curving.add_pieces();
   std::vector<bool> is_curved(mesh.vertices.size(), false);
   for (const auto &piece : mesh.pieces)
@@ -193,7 +194,7 @@ void curve_blocks(geometry::BlockMesh<dim> &mesh,
       least[b] = geometry::least_scaled_jacobian<dim>(mesh.vertices, mesh.blocks[b], {});
   std::set<geometry::Patch<dim> *> straightened;
   curving.place_middles(true);
-  // After 20 times they are straight but for a millionth of what they were.
+  // After 20 turns curves are straight up to a millionth of their initial offset.
   for (unsigned int turn = 0; turn < 20; ++turn)
     {
       std::set<geometry::Patch<dim> *> thin;
@@ -212,7 +213,7 @@ void curve_blocks(geometry::BlockMesh<dim> &mesh,
     }
   if (!straightened.empty())
     notes.push_back(std::to_string(straightened.size()) +
-                    " curved edges and faces of thin cells brought nearer to straight ones");
+                    " curved edges and faces straightened to keep thin cells valid");
   mesh.known_surfaces = shapes.known();
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
     if (boundary.is_on_known(f))

@@ -23,7 +23,7 @@ CurvedBoundary<dim>::CurvedBoundary(const BodySurface<dim>   &the_surface,
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
     for (const Corners &edge : surface.edges(f))
       edges.insert(edge);
-  // also those inside of the body
+  // Edges in the interior of the body may have middles as well.
   for (const auto &middle : surface.middles)
     if (middle.first.size() == 2)
       edges.insert(middle.first);
@@ -46,7 +46,7 @@ void CurvedBoundary<dim>::find_chains()
         chains[node].push_back(ridge.first);
 }
 
-/// The edge that goes on smoothly behind @p node; null if there is none.
+/// Return the edge that continues @p edge smoothly behind @p node, or null if there is none.
 template <int dim>
 const std::vector<unsigned int> *CurvedBoundary<dim>::next(const Corners     &edge,
                                                            const unsigned int node) const
@@ -78,7 +78,7 @@ std::vector<unsigned int> CurvedBoundary<dim>::facets_of(const Corners &edge) co
   return {};
 }
 
-/// Within or between plane regions.
+/// Return whether all facets at @p edge are plane.
 template <int dim>
 bool CurvedBoundary<dim>::is_straight(const Corners &edge) const
 {
@@ -88,7 +88,8 @@ bool CurvedBoundary<dim>::is_straight(const Corners &edge) const
   });
 }
 
-/// The next nodes of the chain from @p node on along @p edge, up to a plane region.
+/// Return the next nodes of the chain behind @p node along @p edge, at most 3 and up to a plane
+/// region.
 template <int dim>
 std::vector<dealii::Point<dim>> CurvedBoundary<dim>::walk(const Corners *edge,
                                                           unsigned int   node) const
@@ -103,7 +104,7 @@ std::vector<dealii::Point<dim>> CurvedBoundary<dim>::walk(const Corners *edge,
   return result;
 }
 
-/// At @p node, along @p edge.
+/// Return the unit tangent of the chain at @p node, along @p edge.
 template <int dim>
 dealii::Tensor<1, dim> CurvedBoundary<dim>::tangent(const Corners     &edge,
                                                     const unsigned int node) const
@@ -118,7 +119,7 @@ dealii::Tensor<1, dim> CurvedBoundary<dim>::tangent(const Corners     &edge,
   return curve_tangent(walk(back, node), x, walk(&edge, node));
 }
 
-/// Of a smooth part at a node.
+/// Return the unit normal of a smooth part at a node, or 0 at the tip of a cone.
 template <int dim>
 dealii::Tensor<1, dim> CurvedBoundary<dim>::normal(const unsigned int part, const unsigned int node)
 {
@@ -139,7 +140,7 @@ dealii::Tensor<1, dim> CurvedBoundary<dim>::normal(const unsigned int part, cons
   if (n.norm() > 0.)
     return n /= n.norm();
   mean /= mean.norm();
-  // There is none at the tip of a cone; edges begin straight there.
+  // There is no normal at the tip of a cone, where edges begin straight.
   for (const unsigned int f : surface.facets_at.at(node))
     if (surface.part_of[f] == part && surface.normal(f) * mean < std::cos(M_PI / 6.))
       return n;
@@ -158,7 +159,8 @@ dealii::Tensor<1, dim> CurvedBoundary<dim>::normal(const unsigned int part, cons
 
 template <int dim>
 std::array<dealii::Tensor<1, dim>, 2>
-CurvedBoundary<dim>::coefficients(const Corners &edge, const geometry::Guides<dim> &guides)
+CurvedBoundary<dim>::coefficients(const Corners                            &edge,
+                                  const geometry::GeometryConstraints<dim> &constraints)
 {
   const auto at  = facets_of(edge);
   const auto has = [&](const Kind kind) {
@@ -170,8 +172,9 @@ CurvedBoundary<dim>::coefficients(const Corners &edge, const geometry::Guides<di
     return surface.quadratic(edge);
   if (!known && is_straight(edge))
     return {};
-  // within one shape, the facets project straight edges
-  if (guides.surfaces.size() == 1 && guides.planes.empty() && !smooth && !has(Kind::quadratic))
+  // Within one shape, straight edges are projected on the shape.
+  if (constraints.surfaces.size() == 1 && constraints.planes.empty() && !smooth &&
+      !has(Kind::quadratic))
     return {};
   const Vector chord = surface.points[edge[1]] - surface.points[edge[0]];
   const bool   within =
@@ -188,7 +191,7 @@ CurvedBoundary<dim>::coefficients(const Corners &edge, const geometry::Guides<di
       t[i] = (i == 0 ? 1. : -1.) * tangent(edge, edge[i]);
   auto c = cubic<dim>(chord, t[0], t[1]);
   for (auto &own : c)
-    for (const auto &n : guides.planes)
+    for (const auto &n : constraints.planes)
       own -= (own * n) * n;
   return c;
 }
@@ -197,14 +200,14 @@ template <int dim>
 void CurvedBoundary<dim>::add_curve(const Corners &edge)
 {
   const auto at = facets_of(edge);
-  // Facets have straight edges, whatever lies beside them.
+  // All edges of facets are straight, also next to other shapes.
   for (const unsigned int f : at)
     if (shapes.of_facet(f).kind == Kind::facets)
       return;
   const Point &a = surface.points[edge[0]], &b = surface.points[edge[1]];
-  const auto   on = shapes.guides(at);
+  const auto   on = shapes.constraints(at);
   const auto   c  = coefficients(edge, on);
-  // straight but for rounding
+  // The edge is straight up to rounding.
   if (on.surfaces.empty() && std::max(c[0].norm(), c[1].norm()) < 1e-12 * a.distance(b))
     return;
   curves[edge] = std::make_shared<geometry::Curve<dim>>(a, b, c, on);
@@ -265,7 +268,7 @@ bool CurvedBoundary<3>::is_on_known(const unsigned int facet) const
 {
   if (shapes.of_facet(facet).kind != Kind::known || patches[facet]->scale != 1.)
     return false;
-  // Neighbours that stay facets, or touch at a small angle, may have taken an edge off it.
+  // Edges may be off the surface where a neighbour is faceted or touches at a small angle.
   const auto &patch = dynamic_cast<const geometry::FacetPatch &>(*patches[facet]);
   return patch.gap() <= 1e-12 * patch.corners[0].distance(patch.surface->centre);
 }

@@ -11,8 +11,8 @@ bool has(const Corners &face, const unsigned int corner)
   return std::find(face.begin(), face.end(), corner) != face.end();
 }
 
-/// The face of @p shape that has three corners.
-/// Two edges that meet at a corner lie in exactly one face.
+/// Return the face of @p shape that contains three corners. It is unique if one of the corners is
+/// adjacent to the two others.
 const Corners &face_with(const ElementShape shape,
                          const unsigned int a,
                          const unsigned int b,
@@ -43,9 +43,9 @@ const std::vector<std::vector<unsigned int>> &faces_of(const ElementShape shape)
 
 const std::vector<std::vector<unsigned int>> &corner_neighbours(const ElementShape shape)
 {
-  // Right-handed: seen along (n0, n1, n2), the edges of an element that is numbered as in
-  // ElementShape have a positive determinant, and so have the parts at its corners. Four edges
-  // meet at the tip of a pyramid, where no hexahedron fits.
+  // The neighbours n0, n1, n2 of a corner are right-handed: the edges to them have a positive
+  // determinant in elements that are numbered as in ElementShape, and so have the parts at the
+  // corners. Pyramids cannot be split, because four edges meet at their tips.
   using S                                                   = ElementShape;
   static const std::map<S, std::vector<Corners>> neighbours = {
     {S::vertex, {{}}},
@@ -68,8 +68,8 @@ bool is_cell_shape(const ElementShape shape)
 
 std::vector<unsigned int> cell_vertices(const MeshFile::Element &element)
 {
-  // VTK goes around bottom and top, deal.II has the first coordinate fastest: corners 2 and 3
-  // change places, and so do 6 and 7.
+  // Elements number their corners around bottom and top, deal.II with the first coordinate fastest.
+  // Corners 2 and 3 change places, and so do corners 6 and 7.
   auto vertices = element.corners;
   for (unsigned int v = 2; v + 1 < vertices.size(); v += 4)
     std::swap(vertices[v], vertices[v + 1]);
@@ -78,7 +78,7 @@ std::vector<unsigned int> cell_vertices(const MeshFile::Element &element)
 
 unsigned int ElementSplit::middle(std::vector<unsigned int> corners)
 {
-  // Neighbours number a common edge or face in different orders, but must get the same point.
+  // Neighbours number a common edge or face in different orders, but must use the same point.
   std::sort(corners.begin(), corners.end());
   const auto entry = middles.emplace(corners, points.size());
   if (entry.second)
@@ -105,8 +105,9 @@ std::vector<std::vector<unsigned int>> ElementSplit::parts(const MeshFile::Eleme
     {
       const auto &ends = neighbours[corner];
       Corners     part;
-      // The bits of v say along which edges of the corner the vertex lies: no edge gives the
-      // corner itself, one the middle of the edge, two that of their face, all that of the element.
+      // The bits of v are the edges along which the vertex lies: no edge gives the corner itself,
+      // one edge its middle, two edges the middle of their face, all edges the middle of the
+      // element.
       for (unsigned int v = 0; v < 1u << ends.size(); ++v)
         {
           Corners towards = {corner};

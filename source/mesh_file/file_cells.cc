@@ -11,7 +11,7 @@ namespace snug::mesh_file {
 namespace {
 using Element = MeshFile::Element;
 
-/// One group in the regions is enough; without regions all elements are wanted.
+/// Return whether one of the groups of @p element is in @p regions, or @p regions is empty.
 bool is_wanted(const Element &element, const std::vector<std::string> &regions)
 {
   for (const auto &group : element.groups)
@@ -20,56 +20,50 @@ bool is_wanted(const Element &element, const std::vector<std::string> &regions)
   return regions.empty();
 }
 
-/// Regions that are wanted must be there.
+/// Check that the file has all @p regions.
 void check_regions(const std::vector<std::string> &regions, const std::set<std::string> &known)
 {
   for (const auto &region : regions)
     if (known.count(region) == 0)
       throw bad_entry("Mesh regions", to_text(regions),
-                      "'" + region + "' is no region of the file, " +
+                      "'" + region + "' is not a region of the file, which has " +
                         (known.empty()
-                           ? "there are none"
-                           : "they are " +
+                           ? "no regions"
+                           : "the regions " +
                                to_text(std::vector<std::string>(known.begin(), known.end()))));
 }
 
 [[noreturn]] void throw_without_cells(const MeshFile &file, unsigned int dim)
 {
-  std::map<ElementShape, unsigned int> n;
-  for (const auto &element : file.elements)
-    ++n[element.shape];
-  std::string held;
-  for (const auto &entry : n)
-    if (dimension(entry.first) > 0)
-      held += (held.empty() ? "" : ", ") + std::to_string(entry.second) + " " + plural(entry.first);
+  const std::string counts = count_shapes(file.elements);
   throw InputError(std::string("the file has no ") +
                    (dim == 3 ? "tetrahedra, prisms or hexahedra, which Dimension = 3 "
                                "needs to fill the body"
                              : "triangles or quadrilaterals, which Dimension = 2 "
                                "needs") +
-                   "; it has " + (held.empty() ? "only points" : held));
+                   "; it has " + (counts.empty() ? "only points" : counts));
 }
 
-/// All cells of a flat mesh must have the same z; what is in other regions, or lone points, need
-/// not lie in their plane.
+/// Check that all cells of a plane mesh have the same z. Elements of other regions and isolated
+/// points may have another z.
 void check_plane(const std::vector<Element> &cells, const std::vector<dealii::Point<3>> &points)
 {
   for (const auto &cell : cells)
     for (const unsigned int corner : cell.corners)
-      // Exact: programs write the z of a plane mesh as the same text for all nodes.
+      // The comparison is exact, because programs write the same z for all nodes of a plane mesh.
       if (points[corner][2] != points[cells[0].corners[0]][2])
-        throw element_error(cell, "leaves the plane of the others, its z is " +
+        throw element_error(cell, "is not in the plane of the other elements: its z is " +
                                     std::to_string(points[corner][2]));
 }
 
-/// 1 if the element is convex and right-handed at all corners, -1 if
-/// left-handed, 0 if neither.
+/// Return 1 if the element is convex and right-handed at all corners, -1 if it is left-handed at
+/// all corners, or else 0.
 template <int dim>
 int orientation(const Element &element, const std::vector<dealii::Point<3>> &points)
 {
   // The triple product of the edges at a corner is the Jacobian determinant there, up to a
-  // factor. In quadrilaterals, where it is linear, that decides for all points; hexahedra may
-  // still be inverted inside.
+  // factor. In quadrilaterals the determinant is linear, so that its sign at the corners is its
+  // sign everywhere. Hexahedra may still be inverted inside.
   int         sum        = 0;
   const auto &neighbours = corner_neighbours(element.shape);
   for (unsigned int c = 0; c < neighbours.size(); ++c)
@@ -86,13 +80,13 @@ int orientation(const Element &element, const std::vector<dealii::Point<3>> &poi
   return sum == n ? 1 : sum == -n ? -1 : 0;
 }
 
-/// Number the corners of a left-handed element the other way round.
+/// Reverse the orientation of an element.
 void turn(Element &element)
 {
   auto             &c = element.corners;
   const std::size_t n = c.size();
-  // flat elements and tetrahedra: the first corner stays; prisms and hexahedra: bottom and top
-  // change places
+  // The first corner of plane elements and tetrahedra is kept. Bottom and top of prisms and
+  // hexahedra are swapped.
   if (n == 3 || element.shape == ElementShape::tetrahedron)
     std::swap(c[1], c[2]);
   else if (n == 4)
@@ -101,10 +95,10 @@ void turn(Element &element)
     std::swap_ranges(c.begin(), c.begin() + n / 2, c.begin() + n / 2);
 }
 
-/// Some programs number all elements of a shape the other way round.
-/// VTK's documentation does so for prisms (the normal of the first triangle points away from the
-/// second one), and UCD files in deal.II's order do so for hexahedra. A shape of which some
-/// elements are right-handed is not mirrored as a whole; left-handed ones are errors then.
+/// Turn all elements of a shape if they are left-handed, because some programs number all elements
+/// of a shape in the opposite order: prisms of VTK, whose first triangle has its normal away from
+/// the second one, and converted hexahedra. If some elements of a shape are right-handed, then the
+/// shape is not mirrored as a whole, and a left-handed element is an error.
 template <int dim>
 void turn_mirrored(std::vector<Element>                &cells,
                    const std::vector<dealii::Point<3>> &points,
@@ -132,7 +126,7 @@ void turn_mirrored(std::vector<Element>                &cells,
       ++n;
     }
   if (n > 0)
-    notes.push_back(std::to_string(n) + " elements numbered the other way round");
+    notes.push_back(std::to_string(n) + " left-handed elements renumbered");
 }
 } // namespace
 

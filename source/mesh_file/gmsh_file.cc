@@ -6,8 +6,8 @@
 
 namespace snug::mesh_file {
 namespace {
-/// By Gmsh's number. Elements of both orders begin with their corners, in the order of
-/// ElementShape.
+/// Return the element types by their numbers in Gmsh. Elements of both orders begin with their
+/// corners, in the order of ElementShape.
 const std::map<unsigned long, ElementType> &gmsh_types()
 {
   using S                                                 = ElementShape;
@@ -22,11 +22,11 @@ const std::map<unsigned long, ElementType> &gmsh_types()
   return types;
 }
 
-/// Reads a .msh file section by section.
+/// This class reads a .msh file section by section.
 ///
-/// Sections go from $Name to $EndName; unknown ones ($Periodic, $NodeData, ...) are skipped.
-/// "Physical" groups are those the user made; an entity is a point, curve, surface or volume of
-/// the geometry, and its tag is unique among those of its dimension only.
+/// A section extends from $Name to $EndName. Unknown sections ($Periodic, $NodeData, ...) are
+/// skipped. "Physical" groups are defined by the user. An entity is a point, curve, surface or
+/// volume of the geometry, and its tag is unique among the entities of its dimension.
 class GmshReader
 {
 public:
@@ -75,8 +75,8 @@ private:
     return false;
   }
 
-  /// Integers and reals as the file has them.
-  /// In text, whole numbers must not be negative: see tag() for those that may be.
+  /// Return the next integer or real number. Integers in text must not be negative; see tag() for
+  /// integers that may be negative.
   template <typename T>
   T value(const std::string &what)
   {
@@ -90,7 +90,7 @@ private:
     return static_cast<T>(number);
   }
 
-  /// Tags may be negative: the sign of a group or a boundary is its orientation.
+  /// Return a tag, which may be negative: the sign of a group or a boundary is its orientation.
   int tag(const std::string &what)
   {
     if (binary)
@@ -105,25 +105,25 @@ private:
   {
     in.word("$MeshFormat");
     const std::string given = in.word("the version");
-    // All of 2.x are read alike; 4.0 has other sections than 4.1.
+    // All versions 2.x have the same sections; those of 4.0 differ from those of 4.1.
     version = given[0] - '0';
     if (given[0] != '2' && given != "4.1")
       in.fail("version " + given +
-              " of Gmsh's format; it must be 2.2 "
-              "or 4.1 (gmsh -format msh41)");
+              " of Gmsh's format is not supported; it must be 2.2 or 4.1 (gmsh -format msh41)");
     binary = in.whole("the file type") != 0;
     if (in.whole("the data size") != sizeof(double))
       in.fail("the data size must be 8");
     in.rest_of_line();
     if (binary)
       in.be_binary();
-    // Behind the line of the header, binary files have an int 1 that tells the byte order.
+    // The header line of a binary file is followed by an int 1 in the byte order of the file.
     if (binary && in.raw<int>("the number 1") != 1)
-      in.fail("the byte order is that of another machine");
+      in.fail("the byte order differs from that of this machine");
     in.skip_behind("$EndMeshFormat");
   }
 
-  /// Lines 'dimension number "name"', text in binary files as well; names may hold blanks.
+  /// Read lines 'dimension number "name"', which are text also in binary files. Names may contain
+  /// blanks.
   void read_names()
   {
     const auto n = in.whole("the number of physical names");
@@ -139,26 +139,27 @@ private:
       }
   }
 
-  /// A count, or the number of a node or element in 4.1 (size_t if binary). Larger ones do not fit
-  /// in our indices and would let a broken file run a loop for hours.
+  /// Return a count, or the number of a node or element in 4.1 (size_t if binary). Values above 4e9
+  /// are errors, because they do not fit in the indices, and loops of a broken file would take
+  /// hours.
   unsigned long count(const std::string &what)
   {
     const auto n = binary && version == 4 ? in.raw<unsigned long>(what) : in.whole(what);
     if (n > 4000000000ul)
-      in.fail("there are too many: " + what);
+      in.fail(what + " exceeds 4e9");
     return n;
   }
 
-  /// For the boxes of entities, which need not be known.
+  /// Skip the numbers of the boxes of entities.
   void skip_values(unsigned long n, const std::string &what)
   {
     for (unsigned long i = 0; i < n; ++i)
       value<double>(what);
   }
 
-  /// Since version 4 elements know their entity, and the entity its groups. Points have 3
-  /// coordinates, the others a box of 6; then come groups and, but for points, the tags of the
-  /// entities that bound it.
+  /// Read the groups of the entities of version 4, whose elements refer to an entity. Points have 3
+  /// coordinates, other entities a box of 6. Groups follow, and then, except for points, the tags
+  /// of the bounding entities.
   void read_entities()
   {
     std::array<unsigned long, 4> n;
@@ -189,7 +190,7 @@ private:
     mesh.points.push_back(point);
   }
 
-  /// Lines "number x y z"; in binary files only the count is text.
+  /// Read lines "number x y z". In binary files only the count is text.
   void read_nodes_2()
   {
     const auto n = in.whole("the number of nodes");
@@ -198,8 +199,8 @@ private:
       read_point(value<int>("a node"));
   }
 
-  /// Blocks, one per entity: all numbers of its nodes, then all their coordinates. The header has
-  /// the numbers of blocks and nodes, the least and the largest node.
+  /// Read blocks, one per entity: the numbers of all its nodes, then the coordinates of all its
+  /// nodes. The header contains the numbers of blocks and nodes, and the minimum and maximum node.
   void read_nodes_4()
   {
     const auto blocks = count("the number of node blocks");
@@ -211,7 +212,7 @@ private:
         tag("the number of an entity");
         const bool parametric = value<int>("0 or 1") != 0;
         if (parametric)
-          in.fail("nodes have parametric coordinates; save without");
+          in.fail("nodes have parametric coordinates; save the mesh without them");
         const auto                 n = count("the number of nodes");
         std::vector<unsigned long> tags;
         for (unsigned long i = 0; i < n; ++i)
@@ -225,14 +226,14 @@ private:
   {
     const auto found = gmsh_types().find(number);
     if (found == gmsh_types().end())
-      throw error_at_line(in.line(), "elements of Gmsh's type " + std::to_string(number) +
-                                       " cannot be read, only linear and quadratic "
-                                       "ones");
+      throw error_at_line(in.line(), "element type " + std::to_string(number) +
+                                       " of Gmsh is not supported; elements must be linear or "
+                                       "quadratic");
     return found->second;
   }
 
-  /// Name of a physical group, or its number.
-  /// Names belong to a number and a dimension: a curve and a surface may both be group 1.
+  /// Return the name of a physical group, or its number. A name belongs to a number and a
+  /// dimension, because a curve and a surface may both be group 1.
   std::string group(ElementShape shape, unsigned long number)
   {
     const auto found = names.find({dimension(shape), number});
@@ -242,7 +243,7 @@ private:
     return std::to_string(number);
   }
 
-  /// Read the nodes of an element and keep it.
+  /// Read the nodes of an element and store the element.
   template <typename Node>
   void read_element(const ElementType                &type,
                     unsigned long                     number,
@@ -261,9 +262,10 @@ private:
     mesh.elements.push_back(element);
   }
 
-  /// Text: lines "number type n_tags tags nodes". Binary: blocks with the header (type, number of
-  /// elements, n_tags) and (number, tags, nodes) for each. The first tag is the physical group, 0
-  /// for none, the second the entity; partitions may follow, ghost ones with a minus sign.
+  /// Read lines "number type n_tags tags nodes" of a text file. Binary files have blocks with the
+  /// header (type, number of elements, n_tags) and (number, tags, nodes) for each element. The
+  /// first tag is the physical group, 0 for none, and the second tag is the entity. Partitions may
+  /// follow, ghost partitions with a minus sign.
   void read_elements_2()
   {
     const auto n = in.whole("the number of elements");
@@ -293,8 +295,9 @@ private:
       }
   }
 
-  /// Blocks of one type and entity, whose groups all of the elements get; the header has the
-  /// numbers of blocks and elements, the least and the largest element.
+  /// Read blocks of elements of one type and entity. All elements of a block have the groups of the
+  /// entity. The header contains the numbers of blocks and elements, and the minimum and maximum
+  /// element.
   void read_elements_4()
   {
     const auto blocks = count("the number of element blocks");

@@ -1,5 +1,4 @@
 #include <snug/geometry/cell_numbering.h>
-#include <snug/geometry/curved_face.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/mesh_file/curved_blocks.h>
 #include <snug/mesh_file/file_cells.h>
@@ -15,7 +14,7 @@ using Corners = std::vector<unsigned int>;
 using geometry::index_in;
 using geometry::sorted;
 
-/// Makes the blocks of one body of the elements of a file.
+/// This class makes the blocks of one body from the elements of a file.
 template <int dim>
 class Importer
 {
@@ -28,16 +27,16 @@ public:
   {
     cells = body_cells<dim>(file, parameters.regions, notes);
     for (const auto &cell : cells)
-      // One triangle splits all cells: a cell left whole beside the parts of another would have
-      // the middle of its edge as a hanging point.
+      // If one cell is split, all cells are split, because otherwise the middles of its edges would
+      // be hanging nodes of its neighbours.
       if (!is_cell_shape(cell.shape) && !split)
         split = std::make_unique<ElementSplit>(points);
     add_blocks();
-    // Parts of split elements agree on the directions of edges: they go from corners to middles of
-    // edges, faces and elements.
+    // Parts of split elements agree on the directions of edges, which lead from corners to middles
+    // of edges, faces and elements.
     if (!split && !geometry::order_consistently(mesh))
       {
-        notes.push_back("edges of the cells have no common directions");
+        notes.push_back("edges of the cells have no consistent directions");
         split = std::make_unique<ElementSplit>(points);
         mesh  = geometry::BlockMesh<dim>();
         add_blocks();
@@ -46,7 +45,7 @@ public:
     name_boundaries();
     curve_boundaries();
     drop_unused_points();
-    // each block is one coarse cell; Refinements refine it
+    // Each block is one coarse cell, which Refinements refine.
     mesh.cells.fill(1);
     return mesh;
   }
@@ -58,9 +57,9 @@ private:
   const MeshFile                     &file;
   std::vector<dealii::Point<3>>       points;
   std::vector<Element>                cells;
-  std::unique_ptr<ElementSplit>       split; ///< null: all are cells already
+  std::unique_ptr<ElementSplit>       split; ///< null: no element is split
   geometry::BlockMesh<dim>            mesh;
-  /// faces of the cells and in how many of them they are
+  /// faces -> number of cells that share the face
   std::map<Corners, unsigned int> n_cells_of_face;
 
   std::vector<Corners> parts(const Element &element)
@@ -68,8 +67,8 @@ private:
     return SplitCells{cells, split.get()}.parts(element);
   }
 
-  /// The group that says what region a cell belongs to.
-  /// One that has a material decides; else the last group of the cell.
+  /// Return the group that is the region of a cell: the group that has a material, or the last
+  /// group if none has one.
   std::string region_of(const Element &cell) const
   {
     const auto &named = parameters.named_regions;
@@ -78,7 +77,7 @@ private:
       if (std::find(named.begin(), named.end(), group) != named.end())
         {
           if (!found.empty() && found != group)
-            throw element_error(cell, "is in the regions '" + found + "' and '" + group +
+            throw element_error(cell, "belongs to the regions '" + found + "' and '" + group +
                                         "', which both have a material");
           found = group;
         }
@@ -91,7 +90,7 @@ private:
   {
     for (const auto &cell : cells)
       {
-        // All groups are regions, so that Materials may name one without cells of its own.
+        // All groups are regions, so that Materials may contain a group without cells of its own.
         for (const auto &group : cell.groups)
           index_in(mesh.region_names, group);
         const auto region = index_in(mesh.region_names, region_of(cell));
@@ -102,12 +101,7 @@ private:
           }
       }
     if (split)
-      notes.push_back(std::to_string(cells.size()) +
-                      (dim == 3 ? " tetrahedra, prisms and hexahedra "
-                                  "split into "
-                                : " triangles and quadrilaterals split "
-                                  "into ") +
-                      std::to_string(mesh.blocks.size()) +
+      notes.push_back(count_shapes(cells) + " split into " + std::to_string(mesh.blocks.size()) +
                       (dim == 3 ? " hexahedra" : " quadrilaterals"));
   }
 
@@ -116,30 +110,29 @@ private:
     const unsigned int parts_each = mesh.blocks.size() / cells.size(); // for the message only
     for (unsigned int b = 0; b < mesh.blocks.size(); ++b)
       for (const unsigned int f : dealii::GeometryInfo<dim>::face_indices())
-        // Cells that occur twice in the file are found here, too.
+        // This check also finds cells that occur twice in the file.
         if (++n_cells_of_face[sorted(geometry::face_of<dim>(mesh.blocks[b], f))] > 2)
           throw element_error(cells[std::min<std::size_t>(b / parts_each, cells.size() - 1)],
-                              "or one near it shares a face with two "
-                              "others");
+                              "or a neighbour of it shares a face with two "
+                              "other elements");
   }
 
-  /// Name of the boundary an element is part of.
+  /// Return the name of the boundary that contains an element.
   std::string name_of(const Element &element) const
   {
-    // A file need not name its groups; an entry may name those, or rename others.
+    // The entry gives names to groups without a name, and may rename other groups.
     const std::string &group = element.groups.back();
     const auto         given = parameters.boundary_numbers.find(group);
     if (given != parameters.boundary_numbers.end())
       return given->second;
     if (file.unnamed.count(group) > 0)
-      throw element_error(element, "is in group " + group +
-                                     ", which has no name in the file; give one: "
-                                     "'Boundary names = " +
+      throw element_error(element, "belongs to group " + group +
+                                     ", which has no name in the file; set 'Boundary names = " +
                                      group + ": NAME'");
-    // these separate the lists of a parameter file
+    // These characters separate items in lists of a parameter file.
     if (group.find_first_of(",:;=#\\") != std::string::npos)
-      throw element_error(element,
-                          "is in the group '" + group + "'; names must have none of , : ; = # \\");
+      throw element_error(element, "belongs to the group '" + group +
+                                     "'; names must not contain , : ; = # or \\");
     return group;
   }
 
@@ -154,17 +147,17 @@ private:
             if (found == n_cells_of_face.end())
               {
                 if (parameters.regions.empty())
-                  throw element_error(element, "is no face of a cell");
-                continue; // of another region
+                  throw element_error(element, "is not a face of a cell");
+                continue; // a face of another region
               }
             if (found->second == 2)
-              continue; // between regions
+              continue; // a face between regions
             const unsigned int boundary = index_in(mesh.boundary_names, name_of(element));
             const auto         entry    = mesh.boundaries.emplace(key, boundary);
             if (!entry.second && entry.first->second != boundary)
-              throw element_error(element, "is in the group '" +
-                                             mesh.boundary_names[entry.first->second] +
-                                             "' and in '" + mesh.boundary_names[boundary] + "'");
+              throw element_error(element, "belongs to the groups '" +
+                                             mesh.boundary_names[entry.first->second] + "' and '" +
+                                             mesh.boundary_names[boundary] + "'");
           }
     for (const auto &entry : n_cells_of_face)
       if (entry.second == 1 && mesh.boundaries.count(entry.first) == 0)
@@ -179,7 +172,7 @@ private:
     return result;
   }
 
-  /// Faces of the cells at the boundary, before these are split.
+  /// Return the faces of the cells at the boundary, before the cells are split.
   std::vector<Facet> facets()
   {
     std::map<Corners, std::pair<unsigned int, Corners>> count;
@@ -206,7 +199,7 @@ private:
     return result;
   }
 
-  /// Middle nodes of the cells; other regions of the file have some, too.
+  /// Return the middle nodes of the cells, without those of other regions of the file.
   typename BodySurface<dim>::Middles middles() const
   {
     typename BodySurface<dim>::Middles result;
@@ -230,20 +223,21 @@ private:
 
   void curve_boundaries()
   {
-    std::set<unsigned int> whole;
-    for (const auto &entry : parameters.curved_faces)
-      whole.insert(geometry::curved_boundary(mesh.boundary_names, entry.first, entry.second));
+    std::set<unsigned int> smooth;
+    for (const auto &entry : parameters.surfaces)
+      if (entry.second == "smooth")
+        smooth.insert(geometry::index_of(mesh.boundary_names, entry.first));
     for (const auto &point : points)
       mesh.vertices.push_back(in_space(point));
     BodySurface<dim> surface({mesh.vertices.begin(), mesh.vertices.begin() + file.points.size()},
-                             middles(), facets(), whole);
+                             middles(), facets(), smooth);
     const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes);
     mesh.shapes = shapes.of_boundaries();
     curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
   }
 
-  /// Points of other regions, and the middle nodes of quadratic elements, must not count for the
-  /// extent of the body, which BlockGeometry takes from all vertices.
+  /// Remove points of other regions and middle nodes of quadratic elements, because BlockGeometry
+  /// computes the extent of the body from all vertices.
   void drop_unused_points()
   {
     const unsigned int none = static_cast<unsigned int>(-1);
@@ -273,7 +267,7 @@ private:
     };
     mesh.boundaries = renumbered(mesh.boundaries);
     mesh.known      = renumbered(mesh.known);
-    // Coordinates change places with their vertices.
+    // Coordinates follow the new order of the vertices.
     for (auto &entry : mesh.pieces)
       {
         std::map<unsigned int, dealii::Point<2>> at;
@@ -286,7 +280,7 @@ private:
   }
 };
 
-/// FNV-1a of 64 bits, the same on every machine, unlike std::hash.
+/// Return the hash FNV-1a of 64 bits, which is equal on all machines, unlike std::hash.
 std::uint64_t fnv_hash(const std::string &text)
 {
   std::uint64_t hash = 14695981039346656037u;
@@ -326,7 +320,8 @@ import_mesh(const std::string                  &text,
     }
   catch (const InputError &error)
     {
-      // What already names an entry (Mesh regions, Curved faces) stays; the rest is of the file.
+      // Messages that begin with an entry (Mesh regions, Surface) are complete. All others concern
+      // the file.
       const std::string message = printable(error.what());
       if (message.rfind("entry '", 0) == 0)
         throw InputError(message);

@@ -3,19 +3,20 @@
 
 namespace snug::mesh_file {
 namespace {
-/// Facts of a shape; the rows below have the order of ElementShape.
+/// Properties of a shape. The rows below have the order of ElementShape.
 struct ShapeRow
 {
   unsigned int dimension, n_corners;
-  std::string  plural;
+  std::string  singular, plural;
 };
 
 const ShapeRow &row(const ElementShape shape)
 {
-  static const std::vector<ShapeRow> rows = {{0, 1, "points"},     {1, 2, "lines"},
-                                             {2, 3, "triangles"},  {2, 4, "quadrilaterals"},
-                                             {3, 4, "tetrahedra"}, {3, 5, "pyramids"},
-                                             {3, 6, "prisms"},     {3, 8, "hexahedra"}};
+  static const std::vector<ShapeRow> rows = {
+    {0, 1, "point", "points"},           {1, 2, "line", "lines"},
+    {2, 3, "triangle", "triangles"},     {2, 4, "quadrilateral", "quadrilaterals"},
+    {3, 4, "tetrahedron", "tetrahedra"}, {3, 5, "pyramid", "pyramids"},
+    {3, 6, "prism", "prisms"},           {3, 8, "hexahedron", "hexahedra"}};
   return rows[static_cast<unsigned int>(shape)];
 }
 } // namespace
@@ -30,14 +31,26 @@ unsigned int n_corners(const ElementShape shape)
   return row(shape).n_corners;
 }
 
-std::string plural(const ElementShape shape)
+std::string count_shapes(const std::vector<MeshFile::Element> &elements)
 {
-  return row(shape).plural;
+  std::map<ElementShape, unsigned int> counts;
+  for (const auto &element : elements)
+    if (dimension(element.shape) > 0)
+      ++counts[element.shape];
+  std::string result;
+  for (auto count = counts.begin(); count != counts.end(); ++count)
+    {
+      if (count != counts.begin())
+        result += std::next(count) == counts.end() ? " and " : ", ";
+      result += std::to_string(count->second) + " " +
+                (count->second == 1 ? row(count->first).singular : row(count->first).plural);
+    }
+  return result;
 }
 
 void PointNumbers::add(const unsigned long number, const unsigned long line)
 {
-  // indices follow the order of the file, as MeshFile::points does
+  // Indices follow the order of the file, because MeshFile::points has this order.
   if (!indices.emplace(number, indices.size()).second)
     throw error_at_line(line, "node " + std::to_string(number) + " occurs twice");
 }
@@ -49,27 +62,23 @@ unsigned int PointNumbers::index(const unsigned long number,
   const auto found = indices.find(number);
   if (found == indices.end())
     throw error_at_line(line, element + " has the node " + std::to_string(number) +
-                                ", which is not there");
+                                ", which does not exist");
   return found->second;
 }
 
 namespace {
-/// Tells formats by their first words, since endings of names are not reliable: "$MeshFormat" of
-/// Gmsh, "*..." of Abaqus, "# vtk DataFile" of VTK. UCD has comments # or the number of nodes.
+/// Read the format that the first word indicates: "$MeshFormat" of Gmsh or "*..." of Abaqus.
+/// Endings of file names are not reliable.
 MeshFile read_any(const std::string &text)
 {
   MeshText          begin(text);
-  const std::string first = begin.word("a mesh of Gmsh, Abaqus, VTK or UCD");
+  const std::string first = begin.word("a mesh of Gmsh or Abaqus");
   if (first == "$MeshFormat")
     return read_gmsh(text);
   if (first[0] == '*')
     return read_abaqus(text);
-  if (first == "#" && begin.word("a mesh") == "vtk")
-    return read_vtk(text);
-  if (first[0] == '#' || first.find_first_not_of("0123456789") == std::string::npos)
-    return read_ucd(text);
-  begin.fail("this is no mesh file of Gmsh (.msh), Abaqus (.inp), VTK "
-             "(.vtk) or UCD (.ucd)");
+  begin.fail("not a mesh file of Gmsh (.msh) or Abaqus (.inp); 'meshio convert -o gmsh22 FILE "
+             "part.msh' converts other formats");
 }
 } // namespace
 

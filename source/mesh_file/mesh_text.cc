@@ -10,7 +10,7 @@
 namespace snug::mesh_file {
 void MeshText::advance(const std::size_t to)
 {
-  // Lines are only counted forward, so that reading the whole text costs one pass.
+  // Lines are only counted forward, so that the whole text is read in one pass.
   line_number += std::count(text.begin() + place, text.begin() + to, '\n');
   place = to;
 }
@@ -20,12 +20,6 @@ bool MeshText::at_end()
   const auto next = text.find_first_not_of(" \t\r\n\f\v", place);
   advance(std::min(next, text.size()));
   return place == text.size();
-}
-
-bool MeshText::is_next(const std::string &word) const
-{
-  const auto next = text.find_first_not_of(" \t\r\n\f\v", place);
-  return next != std::string::npos && text.compare(next, word.size(), word) == 0;
 }
 
 std::string MeshText::rest_of_line()
@@ -70,7 +64,7 @@ void MeshText::fail(const std::string &message) const
 
 void MeshText::fail_at_end(const std::string &what) const
 {
-  // the last line, not the one where the missing thing should have begun
+  // The message contains the last line, and not the line where the missing item was expected.
   const auto lines =
     std::count(text.begin(), text.end(), '\n') + (text.empty() || text.back() == '\n' ? 0 : 1);
   throw error_at_line(binary ? 0 : lines, "the file ends where " + what + " is expected");
@@ -101,21 +95,21 @@ double to_number(const std::string &word, const unsigned long line)
 {
   char        *end   = nullptr;
   const double value = std::strtod(word.c_str(), &end);
-  // strtod would take "nan" and "inf", and stop at a letter without an error
+  // strtod accepts "nan" and "inf", and stops at a letter without an error.
   if (word.empty() || *end != '\0' || !std::isfinite(value))
-    throw error_at_line(line, "'" + word + "' is no number");
+    throw error_at_line(line, "'" + word + "' is not a number");
   return value;
 }
 
 unsigned long to_whole(const std::string &word, const unsigned long line)
 {
-  // stoul would take a sign and throw its own error on overflow; 18 digits always fit
+  // stoul accepts a sign and throws its own error on overflow. 18 digits always fit.
   const bool good =
     !word.empty() && word.size() < 19 &&
     std::all_of(
       word.begin(), word.end(), [](const unsigned char c) { return std::isdigit(c) != 0; });
   if (!good)
-    throw error_at_line(line, "'" + word + "' is no whole number");
+    throw error_at_line(line, "'" + word + "' is not an integer >= 0");
   return std::stoul(word);
 }
 } // namespace snug::mesh_file

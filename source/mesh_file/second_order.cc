@@ -3,10 +3,9 @@
 #include <algorithm>
 
 namespace snug::mesh_file {
-// Source: documentation of vtkQuadraticTetra, vtkBiQuadraticQuadraticWedge and others; that of
-// vtkTriQuadraticHexahedron contradicts itself in the order of faces, and VTK draws and uses it as
-// here. Abaqus: user's manual, element library.
-const MiddleOrder &vtk_middles(const ElementShape shape)
+// Source: Abaqus user's manual, element library. An element of C3D27 has its centre before its
+// faces, which are in the order S1 to S6.
+const MiddleOrder &abaqus_middles(const ElementShape shape)
 {
   using S                                         = ElementShape;
   static const std::map<S, MiddleOrder> of_shapes = {
@@ -16,19 +15,7 @@ const MiddleOrder &vtk_middles(const ElementShape shape)
     {S::quadrilateral, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 1, 2, 3}}},
     {S::tetrahedron, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}},
     {S::pyramid, {}},
-    {S::prism,
-     {{0, 1},
-      {1, 2},
-      {2, 0},
-      {3, 4},
-      {4, 5},
-      {5, 3},
-      {0, 3},
-      {1, 4},
-      {2, 5},
-      {0, 1, 4, 3},
-      {1, 2, 5, 4},
-      {2, 0, 3, 5}}},
+    {S::prism, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}},
     {S::hexahedron,
      {{0, 1},
       {1, 2},
@@ -42,12 +29,13 @@ const MiddleOrder &vtk_middles(const ElementShape shape)
       {1, 5},
       {2, 6},
       {3, 7},
-      {0, 3, 7, 4},
-      {1, 2, 6, 5},
-      {0, 1, 5, 4},
-      {3, 2, 6, 7},
+      {0, 1, 2, 3, 4, 5, 6, 7},
       {0, 1, 2, 3},
-      {4, 5, 6, 7}}}};
+      {4, 7, 6, 5},
+      {0, 4, 5, 1},
+      {1, 5, 6, 2},
+      {2, 6, 7, 3},
+      {3, 7, 4, 0}}}};
   return of_shapes.at(shape);
 }
 
@@ -90,7 +78,7 @@ const MiddleOrder &gmsh_middles(const ElementShape shape)
       {2, 3, 7, 6},
       {4, 5, 6, 7}}}};
   const auto found = of_shapes.find(shape);
-  return found == of_shapes.end() ? vtk_middles(shape) : found->second;
+  return found == of_shapes.end() ? abaqus_middles(shape) : found->second;
 }
 
 void add_nodes(MeshFile                        &mesh,

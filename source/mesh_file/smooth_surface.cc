@@ -11,8 +11,8 @@ namespace {
 template <int dim>
 struct Neighbour
 {
-  dealii::Tensor<1, dim> from; ///< x
-  double                 s;    ///< along the curve
+  dealii::Tensor<1, dim> from; ///< position relative to x
+  double                 s;    ///< signed arc length from x
 };
 
 template <int dim>
@@ -31,13 +31,13 @@ along(const dealii::Point<dim> &x, const std::vector<dealii::Point<dim>> &points
   return result;
 }
 
-/// Of the circle through x and both.
+/// Return the unit tangent at x of the circle through x and two neighbours.
 template <int dim>
 dealii::Tensor<1, dim> circle_tangent(const Neighbour<dim> &a, const Neighbour<dim> &b)
 {
-  // an inversion about x makes the circle a line along the tangent
+  // An inversion about x maps the circle to a line along the tangent.
   const dealii::Tensor<1, dim> t = b.from / b.from.norm_square() - a.from / a.from.norm_square();
-  // towards growing s: points on one side change their order
+  // The tangent points towards larger s. The inversion reverses the order of points on one side.
   return (a.s < 0. ? 1. : -1.) / t.norm() * t;
 }
 } // namespace
@@ -50,7 +50,7 @@ dealii::Tensor<1, dim> curve_tangent(const std::vector<dealii::Point<dim>> &befo
   const auto up = along(x, behind, 1.), down = along(x, before, -1.);
   if (down.empty() && up.size() == 1)
     return up[0].from / up[0].from.norm();
-  // pairs in ascending order of s but where both are before x
+  // Points of a pair are in ascending order of s, except for two points before x.
   using Pair = std::pair<Neighbour<dim>, Neighbour<dim>>;
   std::vector<Pair> pairs;
   if (down.empty())
@@ -87,7 +87,7 @@ dealii::Tensor<1, 3> surface_normal(const dealii::Point<3>              &x,
                                     const dealii::Tensor<1, 3>          &guess)
 {
   using Vector = dealii::Tensor<1, 3>;
-  // any frame about the guess
+  // The frame about the guess is arbitrary.
   Vector e1;
   e1[std::abs(guess[0]) < 0.6 ? 0 : 1] = 1.;
   e1 -= (e1 * guess) * guess;
@@ -96,7 +96,7 @@ dealii::Tensor<1, 3> surface_normal(const dealii::Point<3>              &x,
   double       size = 0.;
   for (const auto &point : neighbours)
     size = std::max(size, point.distance(x));
-  // height over the tangent plane: polynomials without a constant
+  // The height above the tangent plane is a polynomial without a constant term.
   const unsigned int         n = neighbours.size() < 12 ? 5 : 9;
   dealii::FullMatrix<double> A(n, n);
   dealii::Vector<double>     b(n), c(n);
@@ -113,8 +113,8 @@ dealii::Tensor<1, 3> surface_normal(const dealii::Point<3>              &x,
           b(i) += weight * row[i] * (d * guess);
         }
     }
-  // What few or regular neighbours can hardly tell is left to the lower degrees; what they tell
-  // well changes by this fraction.
+  // The shift reduces coefficients of higher degree that few or regular neighbours hardly
+  // determine. It changes well determined coefficients by this fraction.
   for (unsigned int i = 2; i < n; ++i)
     A(i, i) += neighbours.size() * (i < 5 ? 1e-7 : 1e-3);
   A.gauss_jordan();
@@ -129,7 +129,8 @@ std::array<dealii::Tensor<1, dim>, 2> cubic(const dealii::Tensor<1, dim> &chord,
                                             const dealii::Tensor<1, dim> &last)
 {
   const double length = chord.norm();
-  // 3 times the distance of a control point from its end, such that circles are met best
+  // The lever is 3 times the distance of a control point from its end. This length approximates
+  // circles best.
   const auto lever = [&](const dealii::Tensor<1, dim> &t) {
     const double cosine = t * chord / length;
     return cosine < 0.5 ? chord : 2. * length / (1. + cosine) * t;

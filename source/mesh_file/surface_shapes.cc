@@ -1,4 +1,3 @@
-#include <snug/geometry/curved_face.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/mesh_file/surface_shapes.h>
 
@@ -16,7 +15,7 @@ void add_once(std::vector<T> &list, const T &value)
     list.push_back(value);
 }
 
-/// The fewest digits that give @p value.
+/// Return the minimum number of digits that represent @p value exactly.
 int digits(const double value)
 {
   char text[40];
@@ -36,7 +35,7 @@ double last_digit(const std::vector<dealii::Point<dim>> &points)
   int    most    = 0;
   double largest = 0.;
   bool   single  = true;
-  // a sample of some thousand
+  // A sample of about a thousand points suffices.
   for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 1000)
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -76,21 +75,11 @@ void SurfaceShapes<dim>::read_entries()
       const unsigned int boundary = geometry::index_of(names, entry.first);
       const std::string  given    = entry.first + ": " + entry.second;
       if (boundary == names.size())
-        throw bad_entry("Surface", given, "the faces are " + to_text(names));
+        throw bad_entry("Surface", given,
+                        "is not a boundary; the boundaries are " + to_text(names));
       if (entry.second != "facets" && entry.second != "smooth")
         throw bad_entry("Surface", given, "must be 'facets' or 'smooth'");
       wanted[boundary] = entry.second;
-    }
-  for (const auto &entry : parameters.curved_faces)
-    {
-      const unsigned int boundary = geometry::curved_boundary(names, entry.first, entry.second);
-      std::vector<unsigned int> facets;
-      for (unsigned int f = 0; f < surface.facets.size(); ++f)
-        if (surface.facets[f].boundary == boundary)
-          facets.push_back(f);
-      said[boundary] = surfaces.size();
-      surfaces.push_back(
-        geometry::fitted_surface(entry.first, entry.second, sample(facets, false)));
     }
 }
 
@@ -125,15 +114,9 @@ typename SurfaceShapes<dim>::Shape
 SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
 {
   Shape              result;
-  const unsigned int boundary = surface.facets[part[0]].boundary;
-  if (said.count(boundary) > 0)
-    {
-      result.kind        = Kind::known;
-      result.known_index = said[boundary];
-      return result;
-    }
-  const std::string want      = wanted.count(boundary) > 0 ? wanted[boundary] : "";
-  const bool        quadratic = want != "smooth" && surface.is_quadratic(part[0]);
+  const unsigned int boundary  = surface.facets[part[0]].boundary;
+  const std::string  want      = wanted.count(boundary) > 0 ? wanted[boundary] : "";
+  const bool         quadratic = want != "smooth" && surface.is_quadratic(part[0]);
   if (want == "facets")
     return result;
   const auto points = sample(part, quadratic);
@@ -145,11 +128,11 @@ SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
   const auto  &name      = names[boundary];
   if (is_plane(points, tolerance, result.normal))
     result.kind = Kind::plane;
-  // Round, or a polygon? Its nodes lie on the circle in either case.
+  // A boundary of few facets may be round or a polygon. Its nodes lie on a circle in either case.
   else if (kink > 15.)
-    add_once(notes, "boundary " + name + " stays facets, as these turn by up to " +
+    add_once(notes, "boundary " + name + " is kept faceted: neighbouring facets meet at up to " +
                       std::to_string(std::lround(kink)) + " degrees; 'Surface = " + name +
-                      ": smooth' smooths it");
+                      ": smooth' makes it smooth");
   else if ((result.known_index = recognized(points, tolerance, name)) != none)
     result.kind = Kind::known;
   else
@@ -169,11 +152,12 @@ bool SurfaceShapes<dim>::is_plane(const geometry::SurfaceSample<dim> &points,
   n = Vector();
   for (const auto &normal : points.normals)
     n += normal / double(points.normals.size());
-  // e.g. all around a hole
+  // The normals around a hole, for example, have no common direction.
   if (n.norm() < 0.5)
     return false;
   n /= n.norm();
-  // Nodes of planes across an axis shall keep their coordinate to the last digit.
+  // The normals of planes across an axis are exact, so that nodes keep their coordinate to the last
+  // digit.
   for (unsigned int d = 0; d < dim; ++d)
     if (std::abs(n[d]) < 1e-10)
       n[d] = 0.;
@@ -194,8 +178,9 @@ double SurfaceShapes<dim>::largest_kink(const std::vector<unsigned int> &part) c
   return largest;
 }
 
-/// The arc through the centres of two facets that turn by an angle t rises above each of these by
-/// t/8 of their distance.
+/// Return the maximum height of the true surface above the facets of a part. The arc through the
+/// centres of two facets that meet at an angle t rises above each facet by t/8 of the distance of
+/// the centres.
 template <int dim>
 double SurfaceShapes<dim>::facet_height(const std::vector<unsigned int> &part) const
 {
@@ -255,11 +240,11 @@ unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &
                                             const double                        tolerance,
                                             const std::string                  &name)
 {
-  // Two parts of one cylinder must not get two that differ by round-off.
+  // Two parts of one cylinder use the same surface, and not two surfaces that differ by round-off.
   unsigned int index = 0;
   while (index < surfaces.size() &&
          !(points.largest_distance(surfaces[index]) <= tolerance &&
-           points.faced(surfaces[index]).convex == surfaces[index].convex))
+           points.oriented(surfaces[index]).convex == surfaces[index].convex))
     ++index;
   if (index == surfaces.size())
     {
@@ -270,17 +255,18 @@ unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &
     }
   std::ostringstream text;
   text << "boundary " << name << " is a " << geometry::describe(surfaces[index])
-       << " (largest deviation " << std::setprecision(1) << points.largest_distance(surfaces[index])
+       << " (maximum deviation " << std::setprecision(1) << points.largest_distance(surfaces[index])
        << ")";
   add_once(notes, text.str());
   return index;
 }
 
 template <int dim>
-geometry::Guides<dim> SurfaceShapes<dim>::guides(const std::vector<unsigned int> &facets) const
+geometry::GeometryConstraints<dim>
+SurfaceShapes<dim>::constraints(const std::vector<unsigned int> &facets) const
 {
-  std::set<unsigned int> indices; // ascending: the same of all facets that meet
-  geometry::Guides<dim>  result;
+  std::set<unsigned int> indices; // ascending, so that all adjacent facets use the same order
+  geometry::GeometryConstraints<dim> result;
   for (const unsigned int f : facets)
     {
       const Shape &shape = of_facet(f);
@@ -294,13 +280,14 @@ geometry::Guides<dim> SurfaceShapes<dim>::guides(const std::vector<unsigned int>
   return result;
 }
 
-/// To the last digit, as rounding of the file must not tilt normals.
+/// Move nodes onto known surfaces to the last digit, because otherwise the rounding of the file
+/// changes normals.
 template <int dim>
 void SurfaceShapes<dim>::move_nodes()
 {
   for (const auto &node : surface.facets_at)
     {
-      const auto on = guides(node.second);
+      const auto on = constraints(node.second);
       if (!on.surfaces.empty())
         surface.points[node.first] = on.onto(surface.points[node.first]);
     }

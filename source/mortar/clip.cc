@@ -124,19 +124,16 @@ std::vector<std::array<unsigned int, d + 1>> simplices(unsigned int n_vertices)
   return result;
 }
 
-// Number of derivatives: 1 along a velocity, otherwise all coordinates of a pair of faces.
 #define SNUG_INSTANTIATE(d, Number)                                           \
   template ConvexCell<d, Number> intersection(const ConvexCell<d, Number> &,  \
                                               const ConvexCell<d, Number> &); \
   template double                signed_measure(const ConvexCell<d, Number> &);
 SNUG_INSTANTIATE(1, double)
 SNUG_INSTANTIATE(1, faces::Differential<1>)
-SNUG_INSTANTIATE(1, faces::Differential<8>)
-SNUG_INSTANTIATE(1, faces::Differential<12>)
+SNUG_INSTANTIATE(1, faces::Recorded)
 SNUG_INSTANTIATE(2, double)
 SNUG_INSTANTIATE(2, faces::Differential<1>)
-SNUG_INSTANTIATE(2, faces::Differential<24>)
-SNUG_INSTANTIATE(2, faces::Differential<54>)
+SNUG_INSTANTIATE(2, faces::Recorded)
 #undef SNUG_INSTANTIATE
 template std::vector<std::array<unsigned int, 2>> simplices<1>(unsigned int);
 template std::vector<std::array<unsigned int, 3>> simplices<2>(unsigned int);

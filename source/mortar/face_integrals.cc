@@ -2,24 +2,6 @@
 
 namespace snug::mortar {
 namespace {
-/// Visit all numbers of integrals whose sizes are set, always in the same order.
-template <typename Integrals, typename Visit>
-void for_each_number(Integrals &integrals, const Visit &visit)
-{
-  const auto of_table = [&](auto &table) {
-    for (unsigned int i = 0; i < table.n_rows(); ++i)
-      for (unsigned int j = 0; j < table.n_cols(); ++j)
-        visit(table(i, j));
-  };
-  for (auto &number : integrals.slave)
-    visit(number);
-  of_table(integrals.slave_slave);
-  for (auto *tables : {&integrals.slave_master, &integrals.weights})
-    for (auto &table : *tables)
-      of_table(table);
-  of_table(integrals.offset);
-}
-
 void append(const double number, std::vector<double> &numbers)
 {
   numbers.push_back(number);
@@ -51,9 +33,7 @@ std::vector<double> to_numbers(const FaceIntegrals<Number> &integrals)
 }
 
 template <int dim, typename Number>
-FaceIntegrals<Number> from_numbers(const unsigned int                  n,
-                                   const unsigned int                  n_masters,
-                                   std::vector<double>::const_iterator numbers)
+FaceIntegrals<Number> zero_integrals(const unsigned int n, const unsigned int n_masters)
 {
   FaceIntegrals<Number> integrals;
   integrals.slave.resize(n);
@@ -61,17 +41,31 @@ FaceIntegrals<Number> from_numbers(const unsigned int                  n,
   integrals.slave_master.assign(n_masters, dealii::Table<2, Number>(n, n));
   integrals.weights = integrals.slave_master;
   integrals.offset.reinit(n, dim);
+  return integrals;
+}
+
+template <int dim, typename Number>
+FaceIntegrals<Number> from_numbers(const unsigned int                  n,
+                                   const unsigned int                  n_masters,
+                                   std::vector<double>::const_iterator numbers)
+{
+  auto integrals = zero_integrals<dim, Number>(n, n_masters);
   for_each_number(integrals, [&](Number &number) { take(numbers, number); });
   return integrals;
 }
 
-#define SNUG_INSTANTIATE(Number)                                                       \
-  template std::vector<double>   to_numbers(const FaceIntegrals<Number> &);            \
-  template FaceIntegrals<Number> from_numbers<2>(unsigned int, unsigned int,           \
-                                                 std::vector<double>::const_iterator); \
-  template FaceIntegrals<Number> from_numbers<3>(unsigned int, unsigned int,           \
-                                                 std::vector<double>::const_iterator);
+#define SNUG_INSTANTIATE_DIM(dim, Number)                                         \
+  template FaceIntegrals<Number> zero_integrals<dim>(unsigned int, unsigned int); \
+  template FaceIntegrals<Number> from_numbers<dim>(unsigned int, unsigned int,    \
+                                                   std::vector<double>::const_iterator);
+#define SNUG_INSTANTIATE(Number)                                          \
+  template std::vector<double> to_numbers(const FaceIntegrals<Number> &); \
+  SNUG_INSTANTIATE_DIM(2, Number)                                         \
+  SNUG_INSTANTIATE_DIM(3, Number)
 SNUG_INSTANTIATE(double)
 SNUG_INSTANTIATE(faces::Differential<1>)
+template FaceIntegrals<faces::Recorded> zero_integrals<2>(unsigned int, unsigned int);
+template FaceIntegrals<faces::Recorded> zero_integrals<3>(unsigned int, unsigned int);
 #undef SNUG_INSTANTIATE
+#undef SNUG_INSTANTIATE_DIM
 } // namespace snug::mortar

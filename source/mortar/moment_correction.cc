@@ -1,55 +1,34 @@
 #include <snug/mortar/moment_correction.h>
 
+#include <array>
 #include <cmath>
 
 namespace snug::mortar {
 namespace {
-/// Add factor b to a.
-template <typename Number, std::size_t dim>
-void add(const Number &factor, const std::array<Number, dim> &b, std::array<Number, dim> &a)
-{
-  for (std::size_t i = 0; i < dim; ++i)
-    a[i] += factor * b[i];
-}
+template <int dim, typename Number>
+using Vector = dealii::Tensor<1, dim, Number>;
 
-/// Return v without its part along the unit vector @p n.
-template <typename Number, std::size_t dim>
-std::array<Number, dim> tangential(std::array<Number, dim> v, const std::array<Number, dim> &n)
-{
-  add(-faces::dot(v, n), n, v);
-  return v;
-}
+template <int dim, typename Number>
+using SquareMatrix = std::array<Vector<dim, Number>, dim>;
 
 /// Return A^-1 b of a positive definite matrix by elimination.
-template <typename Number, std::size_t dim>
-std::array<Number, dim> solve(std::vector<std::array<Number, dim>> A, std::array<Number, dim> b)
+template <int dim, typename Number>
+Vector<dim, Number> solve(SquareMatrix<dim, Number> A, Vector<dim, Number> b)
 {
-  for (std::size_t i = 0; i < dim; ++i)
-    for (std::size_t k = i + 1; k < dim; ++k)
+  for (int i = 0; i < dim; ++i)
+    for (int k = i + 1; k < dim; ++k)
       {
         const Number factor = A[k][i] / A[i][i];
-        add(-factor, A[i], A[k]);
+        A[k] -= factor * A[i];
         b[k] -= factor * b[i];
       }
-  for (std::size_t i = dim; i-- > 0;)
+  for (int i = dim; i-- > 0;)
     {
-      for (std::size_t k = i + 1; k < dim; ++k)
+      for (int k = i + 1; k < dim; ++k)
         b[i] -= A[i][k] * b[k];
       b[i] = b[i] / A[i][i];
     }
   return b;
-}
-
-/// Return the weighted mean of the x_k.
-template <typename Number, std::size_t dim>
-std::array<Number, dim> mean(const std::vector<std::array<Number, dim>> &x,
-                             const std::vector<Number>                  &weights,
-                             const Number                               &sum)
-{
-  std::array<Number, dim> result{};
-  for (std::size_t k = 0; k < x.size(); ++k)
-    add(weights[k] / sum, x[k], result);
-  return result;
 }
 
 /// Directions in which the spread of the nodes is less than this fraction of the maximum spread, in
@@ -57,117 +36,86 @@ std::array<Number, dim> mean(const std::vector<std::array<Number, dim>> &x,
 const double least_spread = 1e-8;
 
 /// Return whether the tangential part of A is regular. The normal entry of A is its trace @p trace.
-bool is_regular(const std::vector<std::array<double, 2>> &, double trace)
+bool is_regular(const SquareMatrix<2, double> &, double trace)
 {
   return trace > 0.;
 }
 
-bool is_regular(const std::vector<std::array<double, 3>> &A, double trace)
+bool is_regular(const SquareMatrix<3, double> &A, double trace)
 {
   const double determinant = A[0][0] * (A[1][1] * A[2][2] - A[1][2] * A[2][1]) -
                              A[0][1] * (A[1][0] * A[2][2] - A[1][2] * A[2][0]) +
                              A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]);
   return trace > 0. && determinant > least_spread * trace * trace * trace;
 }
-} // namespace
 
+/// Return c for the differences @p d of the nodes to their mean.
 template <int dim, typename Number>
-MomentCorrection<dim, Number>::MomentCorrection(const std::vector<Vector> &x,
-                                                const std::vector<Number> &coefficients,
-                                                const std::vector<Number> &weights,
-                                                const Vector              &n)
-  : x(x), d(x), coefficients(coefficients), weights(weights), dM(x.size(), Number(0.)), n(n)
+Vector<dim, Number> solve_for_c(const std::vector<Vector<dim, Number>> &d,
+                                const std::vector<Number>              &weights,
+                                const Vector<dim, Number>              &n,
+                                const Vector<dim, Number>              &G)
 {
-  Number sum = 0.;
-  for (std::size_t k = 0; k < x.size(); ++k)
-    {
-      sum += weights[k];
-      add(-coefficients[k], x[k], G);
-    }
-  if (!(faces::value_of(sum) > 0.))
-    return;
-  const Vector middle = mean(x, weights, sum);
-  for (auto &distance : d)
-    add(Number(-1.), middle, distance);
-  solve_for_c();
-  for (std::size_t k = 0; k < x.size(); ++k)
-    dM[k] = weights[k] * faces::dot(c, d[k]);
-}
-
-template <int dim, typename Number>
-void MomentCorrection<dim, Number>::solve_for_c()
-{
-  Number trace = 0.;
-  A.assign(dim, Vector{});
+  const auto tangential = [&n](const Vector<dim, Number> &v) -> Vector<dim, Number> {
+    return v - (v * n) * n;
+  };
+  Number                    trace = 0.;
+  SquareMatrix<dim, Number> A;
   for (std::size_t k = 0; k < d.size(); ++k)
     {
-      const Vector t = tangential(d[k], n);
+      const auto t = tangential(d[k]);
       for (int i = 0; i < dim; ++i)
-        add(weights[k] * t[i], t, A[i]);
-      trace += weights[k] * faces::dot(t, t);
+        A[i] += (weights[k] * t[i]) * t;
+      trace += weights[k] * (t * t);
     }
   // Fill the normal direction of A, because c is at right angles to n for any value there.
   for (int i = 0; i < dim; ++i)
-    add(trace * n[i], n, A[i]);
-  std::vector<std::array<double, dim>> values(dim);
+    A[i] += (trace * n[i]) * n;
+  SquareMatrix<dim, double> values;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j)
       values[i][j] = faces::value_of(A[i][j]);
-  if (!is_regular(values, faces::value_of(trace)))
-    {
-      A.clear();
-      return;
-    }
-  c = solve(A, tangential(G, n));
-  for (auto &component : c)
-    component *= -1.;
+  return is_regular(values, faces::value_of(trace)) ? -solve<dim>(A, tangential(G))
+                                                    : Vector<dim, Number>();
 }
+} // namespace
 
-/// Differentiate the scalar. With b = sum_k w_k q_k d_k and e = -A^+ P b it is b . c = e . G, and
-/// d(b . c) = c . db + e . dG + e' dS c. The last lines include the rotation of P.
 template <int dim, typename Number>
-typename MomentCorrection<dim, Number>::Gradient
-MomentCorrection<dim, Number>::gradient(const std::vector<Number> &q) const
+std::vector<Number> moment_correction(std::vector<dealii::Tensor<1, dim, Number>> x,
+                                      const std::vector<Number>                  &coefficients,
+                                      const std::vector<Number>                  &weights,
+                                      const dealii::Tensor<1, dim, Number>       &n)
 {
-  Gradient result{std::vector<Vector>(x.size(), Vector{}),
-                  std::vector<Number>(x.size(), Number(0.)),
-                  std::vector<Number>(x.size(), Number(0.)),
-                  {}};
-  if (A.empty())
-    return result;
-  Number sum = 0., mean_q = 0.;
+  Number              sum = 0.;
+  Vector<dim, Number> G, middle;
   for (std::size_t k = 0; k < x.size(); ++k)
     {
       sum += weights[k];
-      mean_q += weights[k] * q[k];
+      G -= coefficients[k] * x[k];
     }
-  mean_q /= sum;
-  Vector b{}, Sc{}, Se{};
+  std::vector<Number> dM(x.size(), Number(0.));
+  if (!(faces::value_of(sum) > 0.))
+    return dM;
   for (std::size_t k = 0; k < x.size(); ++k)
-    {
-      add(weights[k] * (q[k] - mean_q), d[k], b);
-      add(weights[k] * faces::dot(d[k], c), d[k], Sc);
-    }
-  Vector e = solve(A, tangential(b, n));
-  for (auto &component : e)
-    component *= -1.;
+    middle += (weights[k] / sum) * x[k];
+  for (auto &d : x)
+    d -= middle;
+  const auto c = solve_for_c<dim>(x, weights, n, G);
   for (std::size_t k = 0; k < x.size(); ++k)
-    {
-      const Number along_c = faces::dot(c, d[k]), along_e = faces::dot(e, d[k]),
-                   apart = q[k] - mean_q;
-      add(weights[k] * along_e, d[k], Se);
-      result.weights[k]      = along_c * (along_e + apart);
-      result.coefficients[k] = -faces::dot(e, x[k]);
-      add(weights[k] * (along_e + apart), c, result.x[k]);
-      add(weights[k] * along_c - coefficients[k], e, result.x[k]);
-    }
-  add(-(faces::dot(n, b) + faces::dot(n, Se)), c, result.n);
-  add(-(faces::dot(n, G) + faces::dot(n, Sc)), e, result.n);
-  return result;
+    dM[k] = weights[k] * (c * x[k]);
+  return dM;
 }
 
-template class MomentCorrection<2, double>;
-template class MomentCorrection<3, double>;
-template class MomentCorrection<2, faces::Differential<1>>;
-template class MomentCorrection<3, faces::Differential<1>>;
+#define SNUG_INSTANTIATE(dim, Number)                                                         \
+  template std::vector<Number> moment_correction(std::vector<dealii::Tensor<1, dim, Number>>, \
+                                                 const std::vector<Number> &,                 \
+                                                 const std::vector<Number> &,                 \
+                                                 const dealii::Tensor<1, dim, Number> &);
+SNUG_INSTANTIATE(2, double)
+SNUG_INSTANTIATE(2, faces::Differential<1>)
+SNUG_INSTANTIATE(2, faces::Recorded)
+SNUG_INSTANTIATE(3, double)
+SNUG_INSTANTIATE(3, faces::Differential<1>)
+SNUG_INSTANTIATE(3, faces::Recorded)
+#undef SNUG_INSTANTIATE
 } // namespace snug::mortar

@@ -76,22 +76,68 @@ Matrix<double> transpose(const Matrix<double> &A)
   return result;
 }
 
-/// Return the offset at @p xi. Value and slopes of the point carry the first derivatives exactly.
+/// Return the offset at @p xi, from the @p offsets at the samples. Shape functions and their slopes
+/// at the value of xi carry the first derivatives exactly.
 template <int dim, typename Number>
 std::array<Number, dim> offset_at(const FaceNodes<dim, Number>              &offsets,
                                   const faces::FaceCoordinates<dim, Number> &xi)
 {
+  std::array<Number, dim> result{};
   if (offsets.empty())
-    return {};
+    return result;
   faces::FaceCoordinates<dim, double> at;
   for (int a = 0; a < dim - 1; ++a)
     at[a] = faces::value_of(xi[a]);
-  const OffsetPoint<dim, Number> point(offsets, at);
-  auto                           result = point.offset;
+  const faces::FaceValues<dim, double, mesh::surface_degree> values(mesh::surface_degree, at);
   for (int d = 0; d < dim; ++d)
-    for (int a = 0; a < dim - 1; ++a)
-      result[d] += point.slopes[a][d] * (xi[a] - at[a]);
+    {
+      result[d] = faces::combination<Number>(
+        offsets.size(), [&](unsigned int k) { return values.value[k]; },
+        [&](unsigned int k) -> const Number & { return offsets[k][d]; });
+      for (int a = 0; a < dim - 1 && !std::is_same<Number, double>::value; ++a)
+        result[d] +=
+          (xi[a] - at[a]) * faces::combination<double>(
+                              offsets.size(), [&](unsigned int k) { return values.gradient[k][a]; },
+                              [&](unsigned int k) { return faces::value_of(offsets[k][d]); });
+    }
   return result;
+}
+
+/// Visit the parts of all integrals over the master face @p f at one point: call add(number,
+/// entry), where entry(integrals) is the integral to which the number belongs.
+template <int dim, typename Number, typename Add>
+void for_each_part(const SegmentQuadrature<dim>    &quadrature,
+                   const MortarFace<dim, Number>   &slave,
+                   const MortarFace<dim, Number>   &master,
+                   const unsigned int               f,
+                   const SegmentPoint<dim, Number> &point,
+                   const Add                       &add)
+{
+  const unsigned int n        = slave.nodes.size();
+  const bool         linear   = n == 1u << (dim - 1);
+  const bool         curved   = !slave.offsets.empty() || !master.offsets.empty();
+  const auto        &N_slave  = point.slave_shape.value;
+  const auto         N_master = quadrature.shape(point.master).value;
+  auto               delta    = offset_at<dim>(master.offsets, point.master);
+  const auto         of_slave = offset_at<dim>(slave.offsets, point.slave);
+  for (int d = 0; d < dim; ++d)
+    delta[d] -= of_slave[d];
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      const Number weighted = point.weight * N_slave[j];
+      add(weighted, [&](auto &integrals) -> auto & { return integrals.slave[j]; });
+      for (unsigned int l = 0; l < n; ++l)
+        {
+          const auto weight = [&](auto &integrals) -> auto & { return integrals.weights[f](j, l); };
+          const Number both = weighted * N_master[l];
+          add(weighted * N_slave[l],
+              [&](auto &integrals) -> auto & { return integrals.slave_slave(j, l); });
+          add(both, [&](auto &integrals) -> auto & { return integrals.slave_master[f](j, l); });
+          add(linear ? both : weighted * N_slave[j] * N_master[l] * N_master[l], weight);
+        }
+      for (int d = 0; d < dim && curved; ++d)
+        add(weighted * delta[d], [&](auto &integrals) -> auto & { return integrals.offset(j, d); });
+    }
 }
 
 /// Return whether the covered part is empty, so that there are no dual functions.
@@ -168,43 +214,33 @@ FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quad
                                 const MortarFace<dim, Number>              &slave,
                                 const std::vector<MortarFace<dim, Number>> &masters)
 {
-  const unsigned int    n      = slave.nodes.size();
-  const bool            linear = n == 1u << (dim - 1);
-  FaceIntegrals<Number> result;
-  result.slave.resize(n);
-  result.slave_slave.reinit(n, n);
-  result.offset.reinit(n, dim);
-  for (const auto &master : masters)
-    {
-      Matrix<Number> P(n, n), W(n, n);
-      const bool     curved = !slave.offsets.empty() || !master.offsets.empty();
-      for (const auto &point : quadrature.points(slave.nodes, master.nodes))
-        {
-          const auto N_slave  = quadrature.shape(point.slave).value;
-          const auto N_master = quadrature.shape(point.master).value;
-          auto       delta    = offset_at<dim>(master.offsets, point.master);
-          const auto of_slave = offset_at<dim>(slave.offsets, point.slave);
-          for (int d = 0; d < dim; ++d)
-            delta[d] -= of_slave[d];
-          for (unsigned int j = 0; j < n; ++j)
-            {
-              const Number weighted = point.weight * N_slave[j];
-              result.slave[j] += weighted;
-              for (unsigned int l = 0; l < n; ++l)
-                {
-                  result.slave_slave(j, l) += weighted * N_slave[l];
-                  P(j, l) += weighted * N_master[l];
-                  if (!linear)
-                    W(j, l) += weighted * N_slave[j] * N_master[l] * N_master[l];
-                }
-              for (int d = 0; d < dim && curved; ++d)
-                result.offset(j, d) += weighted * delta[d];
-            }
-        }
-      result.weights.push_back(linear ? P : W);
-      result.slave_master.push_back(P);
-    }
+  auto result = zero_integrals<dim, Number>(slave.nodes.size(), masters.size());
+  for (unsigned int f = 0; f < masters.size(); ++f)
+    quadrature.template for_each_point<Number>(
+      slave.nodes, masters[f].nodes, [&](const auto &compute) {
+        for_each_part(quadrature, slave, masters[f], f, compute(),
+                      [&](const Number &part, const auto &entry) { entry(result) += part; });
+      });
   return result;
+}
+
+template <int dim>
+void add_integral_derivatives(const SegmentQuadrature<dim>                        &quadrature,
+                              const MortarFace<dim, faces::Recorded>              &slave,
+                              const std::vector<MortarFace<dim, faces::Recorded>> &masters,
+                              const FaceIntegrals<double>                         &slopes,
+                              faces::Recording                                    &recording)
+{
+  for (unsigned int f = 0; f < masters.size(); ++f)
+    quadrature.template for_each_point<faces::Recorded>(
+      slave.nodes, masters[f].nodes, [&](const auto &compute) {
+        const std::size_t begin = recording.size();
+        for_each_part(quadrature, slave, masters[f], f, compute(),
+                      [&](const faces::Recorded &part, const auto &entry) {
+                        recording.add(part, entry(slopes));
+                      });
+        recording.sweep_to(begin);
+      });
 }
 
 template <typename Number>
@@ -233,68 +269,6 @@ FaceCoupling<Number> couple(const FaceIntegrals<Number> &of_nodes,
   return result;
 }
 
-namespace {
-/// Apply the reverse mode of couple() for biorthogonal functions. A star marks the derivative of
-/// the scalar with respect to a matrix. With M = A P: P* = A' M*, A* = sum M* P', and the offset
-/// likewise. With A = diag(d) m^-1: d* = diag(A* m^-1), m* = -A' A* m^-1.
-FaceIntegrals<double> dual_transpose(const FaceIntegrals<double> &integrals,
-                                     const MultiplierFunctions   &functions,
-                                     const FaceCoupling<double>  &gradient)
-{
-  const unsigned int    n         = integrals.slave.size();
-  const Matrix<double>  m_inverse = inverse(integrals.slave_slave);
-  const Matrix<double>  A         = dual_coefficients(integrals);
-  const Matrix<double>  At        = transpose(A);
-  Matrix<double>        A_gradient(n, n);
-  FaceIntegrals<double> result;
-  for (unsigned int f = 0; f < integrals.slave_master.size(); ++f)
-    {
-      const auto &M       = gradient.multiplier_master[f];
-      const auto  of_face = product(M, transpose(integrals.slave_master[f]));
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          A_gradient(i, j) += of_face(i, j);
-      result.slave_master.push_back(product(At, M));
-    }
-  const auto by_offset = product(gradient.multiplier_offset, transpose(integrals.offset));
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      A_gradient(i, j) += by_offset(i, j);
-  result.offset      = product(At, gradient.multiplier_offset);
-  const auto A_m     = product(A_gradient, m_inverse);
-  result.slave_slave = product(At, A_m);
-  result.slave       = gradient.multiplier;
-  for (unsigned int j = 0; j < n; ++j)
-    for (unsigned int l = 0; l < n; ++l)
-      {
-        const double at = functions.are_nodal() ? j == l : functions.at(j, l);
-        result.slave[j] +=
-          at * gradient.multiplier_slave(j, l) + A_gradient(j, l) * m_inverse(l, j);
-        result.slave_slave(j, l) *= -1.;
-      }
-  return result;
-}
-} // namespace
-
-FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
-                                       const MultiplierFunctions   &functions,
-                                       const FaceCoupling<double>  &gradient)
-{
-  if (!functions.biorthogonal || uncovered(integrals))
-    return {gradient.multiplier,
-            gradient.multiplier_slave,
-            gradient.multiplier_master,
-            {},
-            gradient.multiplier_offset};
-  auto to_box = dual_transpose(in_box(integrals, functions), functions, gradient);
-  if (functions.are_nodal())
-    return to_box;
-  // in_box() is linear with the matrix C, so its transpose is in_box() with the matrix C'.
-  MultiplierFunctions backwards;
-  backwards.box = transpose(functions.box);
-  return in_box(to_box, backwards);
-}
-
 #define SNUG_INSTANTIATE(dim, Number)                                            \
   template FaceIntegrals<Number> integrate<dim>(const SegmentQuadrature<dim> &,  \
                                                 const MortarFace<dim, Number> &, \
@@ -304,13 +278,21 @@ SNUG_INSTANTIATE(2, faces::Differential<1>)
 SNUG_INSTANTIATE(3, double)
 SNUG_INSTANTIATE(3, faces::Differential<1>)
 #undef SNUG_INSTANTIATE
+#define SNUG_INSTANTIATE(dim)                                                                                  \
+  template void                add_integral_derivatives(const SegmentQuadrature<dim> &,                        \
+                                                        const MortarFace<dim, faces::Recorded> &,              \
+                                                        const std::vector<MortarFace<dim, faces::Recorded>> &, \
+                                                        const FaceIntegrals<double> &, faces::Recording &);    \
+  template MultiplierFunctions functions_on<dim>(CoverBox<dim>, unsigned int, double);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 #define SNUG_INSTANTIATE_NUMBER(Number)                                \
   template FaceIntegrals<Number> in_box(const FaceIntegrals<Number> &, \
                                         const MultiplierFunctions &);  \
   template FaceCoupling<Number>  couple(const FaceIntegrals<Number> &, const MultiplierFunctions &);
 SNUG_INSTANTIATE_NUMBER(double)
 SNUG_INSTANTIATE_NUMBER(faces::Differential<1>)
+SNUG_INSTANTIATE_NUMBER(faces::Recorded)
 #undef SNUG_INSTANTIATE_NUMBER
-template MultiplierFunctions functions_on<2>(CoverBox<2>, unsigned int, double);
-template MultiplierFunctions functions_on<3>(CoverBox<3>, unsigned int, double);
 } // namespace snug::mortar

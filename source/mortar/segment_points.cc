@@ -192,15 +192,15 @@ SegmentQuadrature<dim>::SegmentQuadrature(unsigned int              degree,
 
 template <int dim>
 template <typename Number>
-std::vector<SegmentPoint<dim, Number>>
-SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
-                               const FaceNodes<dim, Number> &master) const
+void SegmentQuadrature<dim>::for_each_point(
+  const FaceNodes<dim, Number>                                                  &slave,
+  const FaceNodes<dim, Number>                                                  &master,
+  const std::function<void(const std::function<SegmentPoint<dim, Number>()> &)> &visit) const
 {
-  const FacePlane<dim, Number>           plane(degree, slave);
-  const auto                             on_slave     = projected<dim>(degree, plane, slave);
-  const auto                             on_master    = projected<dim>(degree, plane, master);
-  const auto                             master_cells = cells<dim>(degree, on_master, true);
-  std::vector<SegmentPoint<dim, Number>> result;
+  const FacePlane<dim, Number> plane(degree, slave);
+  const auto                   on_slave     = projected<dim>(degree, plane, slave);
+  const auto                   on_master    = projected<dim>(degree, plane, master);
+  const auto                   master_cells = cells<dim>(degree, on_master, true);
   for (const auto &slave_cell : cells<dim>(degree, on_slave, false))
     for (const auto &master_cell : master_cells)
       {
@@ -216,21 +216,20 @@ SegmentQuadrature<dim>::points(const FaceNodes<dim, Number> &slave,
               simplex[v] = piece[corners[v]];
             const Number size = determinant(simplex);
             for (const Point &q : rule)
-              {
-                SegmentPoint<dim, Number> point;
-                point.slave = combined(q.barycentric, simplex);
-                const faces::FaceValues<dim, Number> shape(degree, point.slave);
+              visit([&]() {
+                const faces::FaceCoordinates<dim, Number> xi = combined(q.barycentric, simplex);
+                SegmentPoint<dim, Number>                 point{0., xi, {}, {degree, xi}};
+                const auto                               &shape = point.slave_shape;
                 point.weight = size * area(tangents<dim>(shape, slave)) *
                                section_weight(idealization, combined(shape.value, slave)) *
                                q.weight;
                 // Project along n_0 and not to the closest point: n_0 is the same for all points of
                 // a slave face.
                 point.master = on_master.coordinates(combined(shape.value, on_slave.nodes()));
-                result.push_back(point);
-              }
+                return point;
+              });
           }
       }
-  return result;
 }
 
 template <int dim>
@@ -276,18 +275,17 @@ bool SegmentQuadrature<dim>::overlap(const FaceNodes<dim, double> &slave,
 
 template class SegmentQuadrature<2>;
 template class SegmentQuadrature<3>;
-#define SNUG_INSTANTIATE(dim, Number)                                             \
-  template std::vector<SegmentPoint<dim, Number>> SegmentQuadrature<dim>::points( \
-    const FaceNodes<dim, Number> &, const FaceNodes<dim, Number> &) const;        \
-  template faces::FaceValues<dim, Number> SegmentQuadrature<dim>::shape(          \
+#define SNUG_INSTANTIATE(dim, Number)                                                       \
+  template void SegmentQuadrature<dim>::for_each_point(                                     \
+    const FaceNodes<dim, Number> &, const FaceNodes<dim, Number> &,                         \
+    const std::function<void(const std::function<SegmentPoint<dim, Number>()> &)> &) const; \
+  template faces::FaceValues<dim, Number> SegmentQuadrature<dim>::shape(                    \
     const faces::FaceCoordinates<dim, Number> &) const;
 SNUG_INSTANTIATE(2, double)
 SNUG_INSTANTIATE(2, faces::Differential<1>)
-SNUG_INSTANTIATE(2, faces::Differential<8>)
-SNUG_INSTANTIATE(2, faces::Differential<12>)
+SNUG_INSTANTIATE(2, faces::Recorded)
 SNUG_INSTANTIATE(3, double)
 SNUG_INSTANTIATE(3, faces::Differential<1>)
-SNUG_INSTANTIATE(3, faces::Differential<24>)
-SNUG_INSTANTIATE(3, faces::Differential<54>)
+SNUG_INSTANTIATE(3, faces::Recorded)
 #undef SNUG_INSTANTIATE
 } // namespace snug::mortar

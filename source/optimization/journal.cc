@@ -45,7 +45,7 @@ Evaluation replay(const JournalRecord &record)
   return record.evaluation;
 }
 
-/// Whether there is a file that can be read, and then its bytes.
+/// Read a file into @p text. Returns whether the file exists and is readable.
 bool read_file(const std::string &path, std::string &text)
 {
   std::ifstream      in(path, std::ios::binary);
@@ -93,7 +93,7 @@ void Journal::say(const std::string &line) const
 void Journal::read()
 {
   std::string text;
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank == 0 && std::filesystem::exists(path()) && !read_file(path(), text))
       throw InputError("cannot read " + path());
   });
@@ -102,9 +102,9 @@ void Journal::read()
   header_end    = contents.header_end;
   recorded      = std::move(contents.records);
   if (header_end == 0)
-    say("restart: nothing recorded in " + path() + ", starting afresh");
+    say("restart: no recorded evaluations in " + path() + ", starting from the initial design");
   else
-    say("restart: replaying " + std::to_string(recorded.size()) + " records of " + path());
+    say("restart: reusing " + counted(recorded.size(), "recorded evaluation") + " of " + path());
 }
 
 /// Start an empty journal.
@@ -113,7 +113,7 @@ void Journal::begin()
   forget_warm_start();
   const std::string header = journal_header(settings.fingerprint);
   header_end               = header.size();
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank != 0)
       return;
     file.open(path(), std::ios::binary | std::ios::trunc);
@@ -128,7 +128,7 @@ void Journal::begin()
 void Journal::cut()
 {
   const std::size_t end = next == 0 ? header_end : recorded[next - 1].end;
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank != 0)
       return;
     std::error_code error;
@@ -154,8 +154,9 @@ void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n
   const int before = recorded[next - 1].n_ranks;
   if (before != n_ranks)
     {
-      say("restart: written on " + std::to_string(before) + " ranks, continued on " +
-          std::to_string(n_ranks) + ": the solver starts cold, results agree to its tolerance");
+      say("restart: recorded on " + counted(before, "rank") + ", continued on " +
+          counted(n_ranks, "rank") +
+          ": the next solve is a cold start, results agree to the solver tolerance");
       return;
     }
   // all ranks or none: a solver that starts warm on some finds another path
@@ -165,8 +166,9 @@ void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n
   if (good)
     return;
   problem.remember("");
-  say("restart: no warm-start data that fit: the solver starts cold, results agree to its "
-      "tolerance");
+  say(
+    "restart: no warm-start data of this problem: the next solve is a cold start, results agree to "
+    "the solver tolerance");
 }
 
 DesignProblem Journal::journaled(const DesignProblem &problem)
@@ -181,7 +183,7 @@ DesignProblem Journal::journaled(const DesignProblem &problem)
   return result;
 }
 
-/// Whether the next record is that of @p x.
+/// Return whether the next record belongs to @p x.
 bool Journal::is_replayed(const DesignProblem &problem, const std::vector<double> &x)
 {
   if (is_live || next == recorded.size())
@@ -192,8 +194,8 @@ bool Journal::is_replayed(const DesignProblem &problem, const std::vector<double
       return true;
     }
   say("restart: evaluation " + std::to_string(next) +
-      " asks for another design than the one recorded: the record is "
-      "cut there, the solver starts cold");
+      " requests another design than the recorded one: later records are discarded, the next solve "
+      "is a cold start");
   forget_warm_start();
   return false;
 }
@@ -246,7 +248,7 @@ void Journal::differentiate(const DesignProblem       &problem,
     false);
 }
 
-/// What @p work returns, recorded, failures too.
+/// Return the result of @p work after recording it. Failures are recorded as well.
 Evaluation Journal::recorded_live(const DesignProblem               &problem,
                                   const std::vector<double>         &x,
                                   const std::function<Evaluation()> &work,
@@ -279,7 +281,7 @@ void Journal::store(const DesignProblem &problem,
                     const bool           stores_memory)
 {
   if (problem.memory && stores_memory)
-    everywhere(settings.communicator, [&] {
+    throw_collectively(settings.communicator, [&] {
       // renamed when whole: a kill while writing leaves the older one
       const std::string final_path = warm_start_path(values);
       const std::string temporary  = final_path + ".new";
@@ -290,7 +292,7 @@ void Journal::store(const DesignProblem &problem,
       if (!written || error)
         throw InputError("cannot write " + final_path);
     });
-  everywhere(settings.communicator, [&] {
+  throw_collectively(settings.communicator, [&] {
     if (rank != 0)
       return;
     file << journal_text(record, next) << std::flush;

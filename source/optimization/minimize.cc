@@ -68,8 +68,8 @@ void check_blind_start(const ScaledProblem &problem, OptimizationResult &result)
     return;
   result.success = false;
   result.stop_reason =
-    "a constraint without a gradient at the first design, near which no other was found to meet "
-    "it: begin elsewhere, by 'Initial' of the shape, or hold it by <= or >=";
+    "the gradient of a constraint vanishes at the initial design, and no design nearby satisfies "
+    "the constraint: change 'Initial' of the shape, or use <= or >=";
 }
 
 /// Run the search by the algorithm of the parameters and, where MMA has stalled, go on by SLSQP.
@@ -79,7 +79,7 @@ OptimizationResult search(ScaledProblem                &problem,
                           const Hooks                  &hooks)
 {
   Algorithm   algorithm = parameters.algorithm;
-  End         end       = End::none;
+  StopReason  end       = StopReason::none;
   std::string failure;
   try
     {
@@ -90,10 +90,10 @@ OptimizationResult search(ScaledProblem                &problem,
           MmaSearch mma(problem, progress, parameters, hooks);
           end     = mma.run();
           failure = mma.failure;
-          if (end == End::round_off)
+          if (end == StopReason::round_off)
             {
               if (hooks.log)
-                hooks.log("MMA stalled: SLSQP goes on from iteration " +
+                hooks.log("MMA stalled: continuing with SLSQP from iteration " +
                           std::to_string(progress.n_iterations()));
               algorithm = Algorithm::SLSQP;
             }
@@ -108,26 +108,28 @@ OptimizationResult search(ScaledProblem                &problem,
     }
   catch (const Interrupted &)
     {
-      end = End::interrupted;
+      end = StopReason::interrupted;
     }
   auto result      = progress.finish(end, failure);
   result.algorithm = algorithm;
-  if (end != End::interrupted)
+  if (end != StopReason::interrupted)
     check_blind_start(problem, result);
   return result;
 }
 } // namespace
 
-std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters)
+std::string failure_reason(const OptimizationResult     &result,
+                           const OptimizationParameters &parameters)
 {
-  const bool is_feasible  = result.constraint_violation <= parameters.constraint_tolerance;
-  const bool is_cut_short = result.end == End::interrupted || result.end == End::evaluations;
+  const bool is_feasible = result.constraint_violation <= parameters.constraint_tolerance;
+  const bool is_cut_short =
+    result.end == StopReason::interrupted || result.end == StopReason::evaluations;
   if (result.success || (is_feasible && is_cut_short))
     return "";
   std::ostringstream text;
-  text << "the optimization is not solved to its tolerance: it stopped by " << result.stop_reason;
+  text << "the optimization has not converged: it stopped by " << result.stop_reason;
   if (!is_feasible)
-    text << "; the design found violates a constraint by " << result.constraint_violation
+    text << "; the final design violates a constraint by " << result.constraint_violation
          << " of its limit";
   return text.str();
 }

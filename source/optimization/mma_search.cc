@@ -31,12 +31,12 @@ MmaSearch::MmaSearch(ScaledProblem                &the_problem,
   , centre(progress.iterate()->y)
 {}
 
-End MmaSearch::run()
+StopReason MmaSearch::run()
 {
   do
     {
       progress.begin_run();
-      end            = End::round_off;
+      end            = StopReason::round_off;
       n_repeated     = 0;
       milestone      = progress.iterate();
       n_at_milestone = problem.n_evaluations();
@@ -79,9 +79,9 @@ void MmaSearch::run_nlopt()
       const auto  why   = optimizer.optimize(y, f);
       const auto &found = *progress.iterate();
       if (progress.is_feasible(found) && problem.projected_gradient(found) <= steep_gradient)
-        end = why == nlopt::FTOL_REACHED   ? End::objective
-              : why == nlopt::XTOL_REACHED ? End::design
-                                           : End::round_off;
+        end = why == nlopt::FTOL_REACHED   ? StopReason::objective
+              : why == nlopt::XTOL_REACHED ? StopReason::design
+                                           : StopReason::round_off;
     }
   catch (const nlopt::forced_stop &)
     {
@@ -96,9 +96,9 @@ void MmaSearch::run_nlopt()
 /// Return whether another run of NLopt shall follow, and prepare it.
 bool MmaSearch::shall_continue()
 {
-  if (end == End::no_value)
+  if (end == StopReason::no_value)
     return reduce_moves();
-  if ((end != End::objective && end != End::design) || !is_at_move_limit())
+  if ((end != StopReason::objective && end != StopReason::design) || !is_at_move_limit())
     return false;
   centre = progress.iterate()->y;
   return true;
@@ -146,10 +146,10 @@ double MmaSearch::objective(const double *values, double *gradient)
   const auto                point  = values_at(y, gradient != nullptr);
   n_repeated                       = problem.n_evaluations() > before ? 0 : n_repeated + 1;
   if (n_repeated > max_repeated)
-    stop(End::round_off);
+    stop(StopReason::round_off);
   if (progress.is_better(*point, *progress.iterate()) &&
-      progress.accept(point, true) == End::gradient)
-    stop(End::gradient);
+      progress.accept(point, true) == StopReason::gradient)
+    stop(StopReason::gradient);
   stop_if_stalled();
   if (gradient != nullptr)
     {
@@ -175,7 +175,7 @@ void MmaSearch::constraints(double *values, const double *y, double *jacobian)
 Progress::Point MmaSearch::values_at(const std::vector<double> &y, const bool with_gradient)
 {
   if (!problem.is_cached(y) && problem.n_evaluations() >= parameters.maximum_evaluations)
-    stop(End::evaluations);
+    stop(StopReason::evaluations);
   try
     {
       auto point = problem.at(y);
@@ -188,7 +188,7 @@ Progress::Point MmaSearch::values_at(const std::vector<double> &y, const bool wi
     {
       failure       = no_value.what();
       failed_design = y;
-      stop(End::no_value);
+      stop(StopReason::no_value);
     }
 }
 
@@ -205,10 +205,10 @@ void MmaSearch::stop_if_stalled()
       n_at_milestone = problem.n_evaluations();
     }
   else if (problem.n_evaluations() > n_at_milestone + patience)
-    stop(End::round_off);
+    stop(StopReason::round_off);
 }
 
-void MmaSearch::stop(const End reason)
+void MmaSearch::stop(const StopReason reason)
 {
   end = reason;
   throw nlopt::forced_stop();

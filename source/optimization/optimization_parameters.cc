@@ -8,25 +8,35 @@ void OptimizationParameters::declare(Entries &entries)
   entries.add("Algorithm", algorithm, "The optimizer.");
   entries.add(
     "Objective", objective,
-    "The response to be made least: a name in 'Responses' or a quantity of subsection Response.");
-  entries.add("Combine", combine, "What several load cases make of the objective.");
-  entries.add("Constraints", constraints, allowed("a list 'response: limit, response: limit, ...'"),
-              "Limits of responses, any number of them: 'volume: = initial, peak: <= 120, tip: >= "
-              "0.9 initial'; initial is the value of the first design, and = may be left out. With "
-              "several load cases, a response of the state names its own: 'closing.tip: <= 5'.");
+    "The response to be minimized: a name in 'Responses' or a quantity of subsection Response.");
+  entries.add("Combine", combine, "The combination of the objectives of several load cases.");
+  entries.add(
+    "Constraints", constraints,
+    with_meanings(allowed("a list 'response: limit, response: limit, ...'"),
+                  {{"volume: = initial", "equality constraint with the value of the first "
+                                         "design; '=' is optional"},
+                   {"peak: <= 120", "upper limit in the units of the response"},
+                   {"tip: >= 0.9 initial", "lower limit relative to the first design"},
+                   {"closing.tip: <= 5", "limit in the load case closing; with several load "
+                                         "cases, a response of the state needs the name of "
+                                         "one"}}),
+    "The constraints of the optimization.");
   entries.add("Maximum evaluations", maximum_evaluations, at_least(1),
-              "Largest number of designs that are evaluated.");
-  entries.add("Draw every", draw_every,
-              "Also draw the design of every so many iterations; 0: the first and the last one "
-              "alone.");
+              "The maximum number of evaluated designs.");
+  entries.add(
+    "Draw every", draw_every,
+    "The number of iterations between designs whose fields are written. A value of 0 means "
+    "the first and the last design only.");
   entries.add("Gradient tolerance", gradient_tolerance, between(1e-15, 0.1),
-              "Stop when the projected gradient is smaller, relative to the first gradient.");
+              "The norm of the projected gradient, relative to the first gradient, below which the "
+              "search has converged.");
   entries.add("Objective tolerance", objective_tolerance, between(1e-15, 0.1),
-              "Stop when the objective changes by less, relative.");
+              "The relative change of the objective below which the search has converged.");
   entries.add("Design tolerance", design_tolerance, between(1e-15, 0.1),
-              "Stop when all variables change by less, relative to the width of their bounds.");
+              "The change of all variables, relative to the width of their bounds, below which the "
+              "search has converged.");
   entries.add("Constraint tolerance", constraint_tolerance, between(1e-15, 0.1),
-              "Allowed error of the constraints, relative to their values.");
+              "The maximum violation of the constraints, relative to their limits.");
 }
 
 void OptimizationParameters::check(const SectionCheck &section) const

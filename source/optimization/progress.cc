@@ -5,8 +5,8 @@
 #include <cmath>
 
 namespace snug::optimization {
-/// As the summary and the log call them.
-static Names names(End)
+/// Return the names of the reasons in the summary and in the log.
+static Names names(StopReason)
 {
   return {{""},
           {"gradient tolerance"},
@@ -36,7 +36,8 @@ bool Progress::is_better(const ScaledProblem::Point &a, const ScaledProblem::Poi
   return a.violation < b.violation;
 }
 
-/// Of a trial design that no search went on from they may not have been asked for yet.
+/// Return whether the gradients of a design are available. A trial design from which no search
+/// continued may have none.
 bool Progress::has_gradients(const ScaledProblem::Point &point) const
 {
   try
@@ -58,10 +59,10 @@ void Progress::consider(const Point &point)
   best_is_accepted = false;
 }
 
-End Progress::accept(const Point &point, const bool full)
+StopReason Progress::accept(const Point &point, const bool full)
 {
   if (point->x == last->x)
-    return End::none;
+    return StopReason::none;
   const auto previous = last;
   last                = point;
   best_is_accepted    = best_is_accepted || best->x == last->x;
@@ -70,7 +71,7 @@ End Progress::accept(const Point &point, const bool full)
 
   const bool feasible = is_feasible(*last);
   if (feasible && problem.projected_gradient(*last) <= parameters.gradient_tolerance)
-    return End::gradient;
+    return StopReason::gradient;
   const double f  = last->evaluation.objective;
   const double df = std::abs(f - previous->evaluation.objective);
   double       dy = 0.;
@@ -85,8 +86,10 @@ End Progress::accept(const Point &point, const bool full)
   const bool is_enough    = is_close && (full || was_close);
   was_close               = is_close;
   if (!is_enough)
-    return End::none;
-  return is_stuck ? End::round_off : by_objective ? End::objective : End::design;
+    return StopReason::none;
+  return is_stuck       ? StopReason::round_off
+         : by_objective ? StopReason::objective
+                        : StopReason::design;
 }
 
 void Progress::report() const
@@ -117,17 +120,18 @@ bool Progress::has_gained() const
   return best_before->evaluation.objective - f > parameters.objective_tolerance * std::abs(f);
 }
 
-std::string Progress::stop_reason(const End end, const std::string &failure) const
+std::string Progress::stop_reason(const StopReason end, const std::string &failure) const
 {
-  if (end == End::none || end == End::round_off)
+  if (end == StopReason::none || end == StopReason::round_off)
     return is_feasible(*best) ? "round-off" : "constraints violated";
-  return to_text(end) + (end == End::no_value ? " (" + failure + ")" : "");
+  return to_text(end) + (end == StopReason::no_value ? " (" + failure + ")" : "");
 }
 
-OptimizationResult Progress::finish(const End end, const std::string &failure)
+OptimizationResult Progress::finish(const StopReason end, const std::string &failure)
 {
-  const bool by_tolerance = end == End::gradient || end == End::objective || end == End::design;
-  const bool is_last      = by_tolerance || !has_gradients(*best);
+  const bool by_tolerance =
+    end == StopReason::gradient || end == StopReason::objective || end == StopReason::design;
+  const bool is_last = by_tolerance || !has_gradients(*best);
   if (!is_last && !best_is_accepted)
     accept(best, true);
   const auto        &point = is_last ? last : best;
@@ -142,8 +146,8 @@ OptimizationResult Progress::finish(const End end, const std::string &failure)
   result.constraint_violation = point->violation;
   result.end                  = end;
   result.stop_reason          = stop_reason(end, failure);
-  const bool by_round_off =
-    end == End::round_off && result.projected_gradient <= std::sqrt(parameters.objective_tolerance);
+  const bool by_round_off     = end == StopReason::round_off &&
+                            result.projected_gradient <= std::sqrt(parameters.objective_tolerance);
   result.success = is_feasible(*point) && (by_tolerance || by_round_off);
   return result;
 }

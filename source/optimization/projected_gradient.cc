@@ -77,7 +77,7 @@ Reduced reduced_gradient(const std::vector<double>             &g,
   return {{all.begin(), end}, {end, all.end()}};
 }
 
-/// Whether moving against @p r leaves the objective's descent possible.
+/// Return whether the bound at @p place permits a move against @p r, that is, a descent.
 bool counts(const double r, const BoundState place)
 {
   switch (place)

@@ -6,7 +6,7 @@ namespace {
 /// A change of gradient counts as it is if its curvature is at least this part of that of B.
 constexpr double least_part = 0.2;
 
-/// What is left at least of B by one step that saw less curvature.
+/// Minimum factor by which one step with less curvature may reduce B.
 constexpr double least_left = 0.6;
 } // namespace
 

@@ -38,12 +38,12 @@ TrustRegion::TrustRegion(ScaledProblem                &the_problem,
   , weights(problem.relations().size(), least_weight)
 {}
 
-End TrustRegion::run()
+StopReason TrustRegion::run()
 {
   const auto &first = *progress.iterate();
   if (progress.is_feasible(first) &&
       problem.projected_gradient(first) <= parameters.gradient_tolerance)
-    return End::gradient;
+    return StopReason::gradient;
   while (radius > smallest_radius)
     {
       const auto at = progress.iterate();
@@ -55,23 +55,23 @@ End TrustRegion::run()
       if (!(trial.predicted > no_gain * std::abs(trial.objective)))
         {
           if (!hessian.is_measured())
-            return End::round_off;
+            return StopReason::round_off;
           hessian.guess(0.);
           continue;
         }
       if (!problem.is_cached(trial.y) && problem.n_evaluations() >= parameters.maximum_evaluations)
-        return End::evaluations;
+        return StopReason::evaluations;
       if (!evaluated(trial))
         {
           if (++n_failures > max_failures)
-            return End::no_value;
+            return StopReason::no_value;
         }
-      else if (const End end =
+      else if (const StopReason end =
                  trial.actual < accepted * trial.predicted ? reject(trial) : accept(model, trial);
-               end != End::none)
+               end != StopReason::none)
         return end;
     }
-  return failure.empty() ? End::round_off : End::no_value;
+  return failure.empty() ? StopReason::round_off : StopReason::no_value;
 }
 
 /// Return the minimizer of the model with the decrease of the merit that it predicts.
@@ -137,21 +137,21 @@ bool TrustRegion::evaluated(Trial &trial)
 }
 
 /// The search ends if even the predicted gain is below the tolerance, as beside a kink.
-End TrustRegion::reject(const Trial &trial)
+StopReason TrustRegion::reject(const Trial &trial)
 {
   if (progress.is_feasible(*progress.iterate()) &&
       trial.predicted <= parameters.objective_tolerance * std::abs(trial.objective))
-    return End::objective;
+    return StopReason::objective;
   const double left = trial.slope - trial.actual; // by the curvature along d
   radius            = largest(trial.d) *
            (trial.slope > 0. && left > 0. ? std::clamp(trial.slope / (2. * left), 0.1, 0.5) : 0.25);
   failure.clear();
   if (hessian.is_measured())
     hessian.raise(trial.d, 2. * left / dot(trial.d, trial.d));
-  return End::none;
+  return StopReason::none;
 }
 
-End TrustRegion::accept(const StepModel &model, const Trial &trial)
+StopReason TrustRegion::accept(const StepModel &model, const Trial &trial)
 {
   const double part = trial.actual / trial.predicted, length = largest(trial.d);
   const bool   is_at_end = length > 0.99 * radius;
@@ -165,10 +165,11 @@ End TrustRegion::accept(const StepModel &model, const Trial &trial)
     radius *= growth;
   // A small change is no convergence if the box cut the step, or if a much larger gain was
   // predicted.
-  const End end = progress.accept(trial.point, !is_at_end && part > poor);
+  const StopReason end = progress.accept(trial.point, !is_at_end && part > poor);
   // The step may be small only because the evaluation of a longer step failed.
-  return end != End::none && end != End::gradient && is_at_end && !failure.empty() ? End::no_value
-                                                                                   : end;
+  return end != StopReason::none && end != StopReason::gradient && is_at_end && !failure.empty()
+           ? StopReason::no_value
+           : end;
 }
 
 /// Update B by the change of the gradient of the Lagrangian that the prediction has not.

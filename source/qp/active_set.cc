@@ -1,9 +1,9 @@
 #include <snug/base/narrow.h>
 #include <snug/qp/active_set.h>
+#include <snug/qp/cycle_detector.h>
 #include <snug/qp/kkt.h>
 #include <snug/qp/pcpg.h>
 #include <snug/qp/row_set.h>
-#include <snug/qp/set_history.h>
 #include <snug/qp/smalse.h>
 
 #include <deal.II/base/exceptions.h>
@@ -52,7 +52,7 @@ private:
   /// Return whether a cycle has used F-mults that another solver may need.
   bool is_long_cycle() const
   {
-    return care != SetHistory::none && f_mults() > parameters.max_iterations / 4;
+    return inner_accuracy != CycleDetector::none && f_mults() > parameters.max_iterations / 4;
   }
 
   KktResidual kkt_here() const
@@ -83,13 +83,13 @@ private:
   bool   change_set(const RowSet &next);
   void   keep_set();
 
-  const DualProblem     &problem;
-  RunContext            &context;
-  const SolverParameters parameters;
-  const ActiveSetOptions options;
-  SetHistory             history;
-  SetHistory::Care       care = SetHistory::none;
-  const unsigned long    f_mults_before;
+  const DualProblem           &problem;
+  RunContext                  &context;
+  const SolverParameters       parameters;
+  const ActiveSetOptions       options;
+  CycleDetector                history;
+  CycleDetector::InnerAccuracy inner_accuracy = CycleDetector::none;
+  const unsigned long          f_mults_before;
 
   MultiVector              lambda, residual;
   RowSet                   mask;
@@ -162,9 +162,10 @@ void ActiveSetRun::solve_on_set()
                         true);
   // An inner solve below half of the wanted KKT residual would only polish a set that may still
   // change. After a cycle the signs of small entries decide, so inner solves may go further down.
-  const double least = (care == SetHistory::none ? 0.5 : 0.005) * parameters.relative_tolerance;
-  const auto   inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
-                                     narrow<unsigned int>(parameters.max_iterations - f_mults()));
+  const double least =
+    (inner_accuracy == CycleDetector::none ? 0.5 : 0.005) * parameters.relative_tolerance;
+  const auto inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
+                                   narrow<unsigned int>(parameters.max_iterations - f_mults()));
   recurrences += inner.iterations;
   solved      = inner.converged;
   at_rounding = inner.at_rounding;
@@ -174,8 +175,8 @@ void ActiveSetRun::solve_on_set()
   negligible = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
   ++outer;
   std::ostringstream line;
-  line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", " << f_mults()
-       << " F-mults";
+  line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", "
+       << counted(f_mults(), "F-mult");
   context.progress(line.str());
 }
 
@@ -216,7 +217,7 @@ RowSet ActiveSetRun::next_set() const
       // why it is not lambda + c w. A row with neither force nor gap does not change, because its
       // signs are rounding errors that would let it leave and enter by turns.
       next[i] = mask[i] ? lambda(i) >= -negligible[i] : !only_drop && kkt.w(i) > kkt.rounding;
-  if (care == SetHistory::single && !only_drop)
+  if (inner_accuracy == CycleDetector::single && !only_drop)
     return with_one_change(mask, next, context.communicator());
   return next;
 }
@@ -278,20 +279,20 @@ bool ActiveSetRun::change_set(const RowSet &next)
     }
   else
     free_set = problem.free_set(mask);
-  krylov   = std::make_unique<Pcpg>(problem, *free_set, std::move(known));
-  last_kkt = 0.;
-  stalls   = solved ? 0 : stalls + 1;
-  care     = history.enter(fingerprint(mask, comm), kkt.relative, !any(enters, comm));
-  if (care != SetHistory::none)
+  krylov         = std::make_unique<Pcpg>(problem, *free_set, std::move(known));
+  last_kkt       = 0.;
+  stalls         = solved ? 0 : stalls + 1;
+  inner_accuracy = history.enter(fingerprint(mask, comm), kkt.relative, !any(enters, comm));
+  if (inner_accuracy != CycleDetector::none)
     inner_tolerance *= 0.01;
-  return care != SetHistory::give_up && stalls <= allowed_stalls && !is_long_cycle();
+  return inner_accuracy != CycleDetector::give_up && stalls <= allowed_stalls && !is_long_cycle();
 }
 
 std::string ActiveSetRun::reason() const
 {
-  if (care == SetHistory::give_up)
+  if (inner_accuracy == CycleDetector::give_up)
     return history.reason();
-  return is_long_cycle() ? "cycles" : "does not solve on its sets";
+  return is_long_cycle() ? "cycles" : "does not converge on its free sets";
 }
 
 bool ActiveSetRun::run(const WarmStart &from)
@@ -337,8 +338,9 @@ DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start
   ActiveSetRun run(problem, parameters, options);
   if (run.run(start))
     return run.solution();
-  problem.context().out() << "The active set " << run.reason() << " after " << run.f_mults()
-                          << " F-mults; going on with SMALSE-M." << std::endl;
+  problem.context().out() << "active set method: " << run.reason() << " after "
+                          << counted(run.f_mults(), "F-mult") << ", continuing with SMALSE-M"
+                          << std::endl;
   SolverParameters remaining = parameters;
   remaining.max_iterations -=
     narrow<unsigned int>(std::min<unsigned long>(run.f_mults(), remaining.max_iterations));

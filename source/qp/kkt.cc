@@ -197,11 +197,10 @@ SolveError not_converged(const std::string &method,
   std::ostringstream text;
   text.precision(2);
   text << "the " << method << " solver reached a relative KKT residual of " << reached
-       << " instead of " << tolerance << " in " << f_mults << " F-mults"
-       << (out_of_f_mults
-             ? "; allow more F-mults or a larger relative tolerance, "
-             : ", where steps gain next to nothing; allow a larger relative tolerance, ")
-       << "or try the other solver";
+       << " instead of " << tolerance << " in " << counted(f_mults, "F-mult")
+       << (out_of_f_mults ? "; increase 'Maximum F-mults' or 'Relative tolerance', "
+                          : ", and further steps do not reduce it; increase 'Relative tolerance', ")
+       << "or use the other solver";
   return SolveError(text.str());
 }
 } // namespace snug::qp

@@ -156,7 +156,7 @@ NnlsResult nnls(const MultiVector &A, const MultiVector &b)
   const double sizes[2] = {norm_of(b.column(0), b.n_rows()),
                            norm_of(A.column(0), A.n_rows() * A.n_columns())};
   if (!std::isfinite(sizes[0]) || !std::isfinite(sizes[1]))
-    throw SolveError("the equilibrium test met a load or contact row that "
+    throw SolveError("a load or a contact row of the equilibrium test "
                      "is not finite");
   return NonNegativeLeastSquares(A, b).solve();
 }

@@ -11,7 +11,7 @@ namespace snug::qp {
 namespace {
 const double       penalty_factor    = 10.; ///< rho / ||P F P|| at first
 const double       largest_penalty   = 1e5; ///< maximum of rho / ||P F P||, by rounding of rho Q x
-const unsigned int patience          = 20;  ///< steps between two checks of ||G_b x||
+const unsigned int check_interval    = 20;  ///< steps between two checks of ||G_b x||
 const double       wanted_fall       = 0.1; ///< rho is raised unless it falls to this part
 const double       balancing_factor  = 1.;  ///< M / ||P F P|| at first
 const double       balancing_descent = 0.1; ///< factor of M if L grows too little
@@ -187,9 +187,10 @@ void SmalseRun::end_step(Mprgp::Stop &stop)
     stop.gradient_factor *= balancing_descent;
   inner->update_multipliers();
   last_value = value;
-  if (solution.outer_iterations % patience > 0)
+  if (solution.outer_iterations % check_interval > 0)
     return;
-  if (solution.outer_iterations > patience && infeasibility > wanted_fall * checked_infeasibility &&
+  if (solution.outer_iterations > check_interval &&
+      infeasibility > wanted_fall * checked_infeasibility &&
       solution.kkt_residual > parameters.relative_tolerance &&
       sizes.rho < largest_penalty * sizes.norm)
     {
@@ -217,7 +218,7 @@ DualSolution SmalseRun::run(const WarmStart &start)
       solution.kkt_residual = kkt_here().relative;
       std::ostringstream line;
       line << "SMALSE-M, step " << solution.outer_iterations << ": KKT residual "
-           << solution.kkt_residual << ", " << f_mults() << " F-mults";
+           << solution.kkt_residual << ", " << counted(f_mults(), "F-mult");
       context.progress(line.str());
       // Certification removes the violation of the bounds by P x, which increases the residual. The
       // violation falls with ||G_b x||, also where the KKT residual is at its rounding error.

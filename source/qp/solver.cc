@@ -6,22 +6,23 @@ namespace snug::qp {
 void SolverParameters::declare(Entries &entries)
 {
   entries.add("Method", method, choice(names(solver_table())),
-              "Solver of the dual quadratic program.");
-  entries.add("Maximum F-mults", max_iterations, at_least(1),
-              "Largest number of applications of the dual operator in one solve; a state that "
-              "needs more is an error.");
+              "The solver of the dual quadratic program.");
+  entries.add(
+    "Maximum F-mults", max_iterations, at_least(1),
+    "The maximum number of applications of the dual operator F in one solve. A solve that "
+    "needs more is an error.");
 }
 
 const ChoiceTable<std::unique_ptr<Solver>(const SolverParameters &)> &solver_table()
 {
   static const ChoiceTable<std::unique_ptr<Solver>(const SolverParameters &)> table = {
     {"active set",
-     "inexact primal-dual active set with conjugate gradients; about twice a linear solve, one "
-     "when started from a near solution",
+     "inexact primal-dual active set method with conjugate gradients. Its cost is about two linear "
+     "solves, or one with a warm start.",
      [](const SolverParameters &parameters) { return std::make_unique<ActiveSet>(parameters); }},
     {"SMALSE-M",
-     "augmented Lagrangians with projected conjugate gradients; 2 to 4 times as much work, but "
-     "with a proof of convergence",
+     "augmented Lagrangian method with projected conjugate gradients. Its cost is 2 to 4 times "
+     "that of active set; its convergence is proved.",
      [](const SolverParameters &parameters) { return std::make_unique<Smalse>(parameters); }}};
   return table;
 }

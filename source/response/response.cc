@@ -12,73 +12,73 @@ ChoiceTable<MakeResponse<dim>> body_responses()
   using State = state::ContactState<dim>;
   return {
     {"potential energy",
-     "1/2 u'Ku - f'u [force length]; its least value at fixed volume "
-     "spreads the contact pressure evenly",
+     "1/2 u'Ku - f'u [force length]. Its minimum at fixed volume makes the contact pressure "
+     "uniform.",
      [](const Parameters &) { return work<dim>(&State::energy, 1., -1.); }},
     {"compliance",
-     "f'u, the work of the loads [force length]; with a body held by "
-     "contact alone it rewards lifting that body",
+     "f'u, the work of the loads [force length]. It decreases if the design lifts a body that is "
+     "held by contact alone.",
      [](const Parameters &) { return work<dim>(&State::compliance, 0., 1.); }},
     {"strain energy", "1/2 u'Ku [force length]",
      [](const Parameters &) { return work<dim>(&State::strain_energy, 1., 0.); }},
-    {"volume", "volume of a body or all [length^3]",
+    {"volume", "volume of one body or all bodies [length^3]",
      [](const Parameters &parameters) { return body_integral<dim>(parameters, false); }},
-    {"mass", "density times volume of a body or all [mass]",
+    {"mass", "density times volume of one body or all bodies [mass]",
      [](const Parameters &parameters) { return body_integral<dim>(parameters, true); }},
-    {"displacement", "a component of that of a point or averaged over a face [length]",
+    {"displacement",
+     "component of the displacement at a point, or of its mean over a face [length]",
      displacement<dim>},
     {"von Mises norm",
-     "p-norm of the von Mises stress over a body or all, divided by that "
-     "of 1 [force/length^2]",
+     "p-norm of the von Mises stress over one body or all bodies, divided by the p-norm of 1 "
+     "[force/length^2]",
      von_mises_norm<dim>},
     {"least scaled Jacobian",
-     "quality of the cells of a body or all, to be held by a constraint as >= 0.2: 1 less the "
-     "p-norm of 1 - scaled Jacobian, below the least one",
+     "quality of the cells of one body or all bodies, for constraints such as >= 0.2: 1 minus the "
+     "p-norm of 1 - scaled Jacobian, which is below the minimum",
      least_scaled_jacobian<dim>},
     {"least cell size",
-     "of a body or all, relative to the reference mesh: 1 less the p-norm of what points of cells "
-     "have lost of it, below the least one",
+     "size of the cells of one body or all bodies relative to the reference mesh: 1 minus the "
+     "p-norm of the relative reduction at the points of the cells, which is below the minimum",
      least_cell_size<dim>}};
 }
 
 template <int dim>
 ChoiceTable<MakeResponse<dim>> contact_responses()
 {
-  return {{"contact force",
-           "of a pair or all, on the slave side; the component normal adds up "
-           "the sizes at all points [force]",
-           contact_force<dim>},
-          {"contact area",
-           "area where the pressure is above the part 'Smoothing' of its mean "
-           "[length^2]",
-           [](const Parameters &parameters) {
-             const double e = parameters.smoothing;
-             return contact_measure<dim>(parameters,
-                                         [e](const auto &rows) { return contact_area(rows, e); },
-                                         {"Smoothing"});
-           }},
-          {"pressure norm", "p-norm of the contact pressure [force/length^2 length^(2/p)]",
-           [](const Parameters &parameters) {
-             const double p = parameters.exponent;
-             return contact_measure<dim>(
-               parameters, [p](const auto &rows) { return pressure_norm(rows, p); }, {"Exponent"},
-               p);
-           }},
-          {"peak pressure",
-           "p-norm of the contact pressure, each point weighing as much as the "
-           "force it carries [force/length^2]; below the largest pressure",
-           [](const Parameters &parameters) {
-             const double p = parameters.exponent;
-             return contact_measure<dim>(
-               parameters, [p](const auto &rows) { return peak_pressure(rows, p); }, {"Exponent"},
-               p + 1.);
-           }},
-          {"pressure variance",
-           "mean square of the contact pressure less its mean over the slave "
-           "side [(force/length^2)^2]",
-           [](const Parameters &parameters) {
-             return contact_measure<dim>(parameters, pressure_variance);
-           }}};
+  return {
+    {"contact force",
+     "sum of the contact forces on the slave side of one pair or all pairs [force]",
+     contact_force<dim>},
+    {"contact area",
+     "area int (1 + e^2) q^2 / (q^2 + e^2 m^2) dA with the pressure q, its mean m weighted by "
+     "force, and e = 'Smoothing' [length^2]",
+     [](const Parameters &parameters) {
+       const double e = parameters.smoothing;
+       return contact_measure<dim>(parameters,
+                                   [e](const auto &rows) { return contact_area(rows, e); },
+                                   {"Smoothing"});
+     }},
+    {"pressure norm", "(int q^p dA)^(1/p) of the contact pressure q [force/length^2 length^(2/p)]",
+     [](const Parameters &parameters) {
+       const double p = parameters.exponent;
+       return contact_measure<dim>(
+         parameters, [p](const auto &rows) { return pressure_norm(rows, p); }, {"Exponent"}, p);
+     }},
+    {"peak pressure",
+     "(int q^p q dA / int q dA)^(1/p) of the contact pressure q [force/length^2], which is "
+     "below the maximum",
+     [](const Parameters &parameters) {
+       const double p = parameters.exponent;
+       return contact_measure<dim>(
+         parameters, [p](const auto &rows) { return peak_pressure(rows, p); }, {"Exponent"},
+         p + 1.);
+     }},
+    {"pressure variance",
+     "int (q - m)^2 dA / int dA of the contact pressure q with its mean m over the slave side "
+     "[(force/length^2)^2]",
+     [](const Parameters &parameters) {
+       return contact_measure<dim>(parameters, pressure_variance);
+     }}};
 }
 } // namespace
 

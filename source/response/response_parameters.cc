@@ -6,25 +6,27 @@
 namespace snug::response {
 void ResponseParameters::declare(Entries &entries)
 {
-  entries.add("Quantity", quantity, choice(names(response_table<3>())), "What it measures.");
+  entries.add("Quantity", quantity, choice(names(response_table<3>())),
+              "The quantity that the response measures.");
   entries.add("Body", body, allowed("the name of a body"),
-              "The body that counts; empty: all, or the only one that holds the point.");
+              "The body of the response. An empty name means all bodies, or for a displacement the "
+              "only body that contains 'Point'.");
   entries.add("Face", face, allowed("body.boundary"),
-              "The face a displacement is averaged over, 'body.boundary'.");
+              "The face over which a displacement is averaged.");
   entries.add("Point", point, per_dimension(),
-              "The point whose displacement counts [length], in the reference geometry; designs "
-              "carry it along.");
-  entries.add("Component", component,
-              "Of a displacement or a contact force. normal: along the outward normal of the face; "
-              "contact forces: all sizes added up.");
+              "The point of a displacement in the reference geometry. A design moves it with the "
+              "body. Units: length.");
+  entries.add("Component", component, "The component of a displacement or a contact force.");
   entries.add("Pair", pair, allowed("slave: master"),
-              "The contact pair that counts, 'slave: master'; empty: all.");
-  entries.add("Exponent", exponent, between(1., 1000.),
-              "The p of p-norms, at least 1; the larger, the nearer to the largest value, and the "
-              "less smooth.");
+              "The contact pair of the response. An empty name means all pairs.");
+  entries.add(
+    "Exponent", exponent, between(1., 1000.),
+    "The exponent p of p-norms, at least 1. With a larger exponent a norm is closer to the "
+    "maximum and less smooth.");
   entries.add(
     "Smoothing", smoothing, above(0., 1.),
-    "Part of the mean contact pressure below which area does not count; above 0, at most 1.");
+    "The part e of the mean contact pressure that separates open area from contact area, above 0 "
+    "and at most 1.");
 }
 
 bool ResponseParameters::reads(const std::string &entry) const

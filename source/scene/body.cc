@@ -47,9 +47,9 @@ void check_regions(const SectionCheck &section, const Body &body)
   for (const auto &[name, material] : body.materials)
     {
       const auto found = std::find(names.begin(), names.end(), name);
-      require(name.empty() || found != names.end(), "'" + quotable(name) + "' is no region of '" +
-                                                      body.name + "', they are " + to_text(names) +
-                                                      did_you_mean(name, names));
+      require(name.empty() || found != names.end(),
+              "'" + quotable(name) + "' is not a region of '" + body.name + "'; the regions are " +
+                to_text(names) + did_you_mean(name, names));
       require(name.empty() || regions[found - names.begin()].n_cells > 0,
               "the region '" + name + "' has no cells");
     }
@@ -64,12 +64,12 @@ void check_materials(const Scene &scene, const SectionCheck &section, const Body
   if (body.materials.empty())
     return body.material.check(section);
   section.require_read(body.material, {},
-                       "must be left out, as 'Materials' says what the body is made of");
+                       "must be left out, because 'Materials' defines the material");
   const auto known = names_of(scene.materials);
   for (const auto &[region, material] : body.materials)
     section.require(std::find(known.begin(), known.end(), material) != known.end(), "Materials",
                     text_of_materials(body.materials),
-                    "'" + quotable(material) + "' is none of the 'Materials' of the scene" +
+                    "'" + quotable(material) + "' is not one of the 'Materials' of the scene" +
                       (known.empty() ? "" : ", " + to_text(known)) + did_you_mean(material, known));
   check_regions(section, body);
 }
@@ -83,7 +83,7 @@ void check_supports(const SectionCheck &section, const Body &body)
     try
       {
         section.require(!component_list(words, section.dimension).empty(), "Supports", value,
-                        "'" + boundary + "' must hold some components");
+                        "'" + boundary + "' must have at least one component");
       }
     catch (const std::invalid_argument &error)
       {
@@ -102,22 +102,23 @@ void Body::declare(Entries &entries)
     {[this]() { return text_of_materials(materials); },
      [this](const std::string &text) { materials = materials_from(text); }},
     allowed("the name of a material, or a list 'region: material, ...' of different regions"),
-    "Materials of the scene the body is made of, instead of its own modulus, ratio and density: "
-    "'steel' for all of it, or one per region, 'core: steel, coat: rubber'. Regions are the groups "
-    "of cells of a mesh file and those of 'Region formulas'; cells in none are the region body.");
-  entries.add("Formulation", formulation, "How elements take the change of volume.");
-  entries.add("Supports", supports,
-              allowed("a list 'boundary: components, ...' of different boundaries"),
-              "Boundaries with the displacement components held at zero: 'bottom: xyz, left: x'. "
-              "'normal' is the component along the outward normal of any face, flat, oblique or "
-              "curved (symmetry planes, rollers): 'side: normal, end: normal z'.");
+    "The materials of the body, instead of its own modulus, ratio and density: 'steel' for the "
+    "whole body, or 'core: steel, coat: rubber' for its regions. Regions are the groups of cells "
+    "of "
+    "a mesh file and of 'Region formulas'. Cells of no region are in the region body.");
+  entries.add("Formulation", formulation, "The treatment of volumetric strain in the elements.");
+  entries.add(
+    "Supports", supports, allowed("a list 'boundary: components, ...' of different boundaries"),
+    "The displacement components that boundaries hold at zero: 'bottom: xyz, left: x'. "
+    "'normal' is the component along the outward normal of a flat, oblique or curved face, "
+    "for symmetry planes and rollers: 'side: normal, end: normal z'.");
   loads.declare(entries, "boundary", "top");
   entries.add("Body force",
               {[this]() { return to_text(body_force); },
                [this](const std::string &text) { body_force = vector_components(text); }},
               allowed("formulas separated by commas or blanks, one per dimension"),
-              "Force per volume along x, y, z [force/length^3], formulas of x, y, z in the "
-              "reference geometry; empty: none.");
+              "The force per volume along x, y, z, as formulas of x, y, z in the reference "
+              "geometry. Units: force/length^3. An empty list means no body force.");
 }
 
 void check_body(const Scene &scene, const SectionCheck &section, const Body &body)

@@ -96,7 +96,7 @@ void check_targets(const Scene &scene, const SectionCheck &section)
           "must name the objective, '" + objective + "'");
   for (const auto &shape : scene.shapes)
     require(!shape.reads("Filter radius"),
-            "must be empty where shapes are node-wise: each mesh has other variables");
+            "must be empty for node-wise shapes, whose variables depend on the mesh");
 }
 
 void check_entries(const Scene &scene, const Origins &origins)
@@ -151,8 +151,8 @@ void require_boundary(const SectionCheck &section,
 {
   const auto known = boundary_names(body, section.dimension);
   section.require(std::find(known.begin(), known.end(), boundary) != known.end(), entry, value,
-                  "'" + quotable(boundary) + "' is no boundary of '" + body.name + "', they are " +
-                    to_text(known) + did_you_mean(boundary, known));
+                  "'" + quotable(boundary) + "' is not a boundary of '" + body.name +
+                    "'; the boundaries are " + to_text(known) + did_you_mean(boundary, known));
 }
 
 void require_face(const Scene        &scene,
@@ -168,7 +168,7 @@ void require_face(const Scene        &scene,
                   "'" + quotable(face) + "' must read 'body.boundary'" +
                     (scene.obstacles.empty() ? "" : " or be an obstacle in 'Obstacles'"));
   section.require(index < scene.bodies.size(), entry, value,
-                  "there is no body '" + quotable(name) + "', there are " + to_text(known) +
+                  "there is no body '" + quotable(name) + "'; the bodies are " + to_text(known) +
                     did_you_mean(name, known));
   require_boundary(section, entry, value, scene.bodies[index], boundary);
 }

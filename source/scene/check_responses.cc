@@ -71,7 +71,7 @@ Parameters require_response(const Scene        &scene,
   const auto known    = response_names(scene);
   const auto response = response_called(scene, name);
   section.require(response.has_value(), entry, value,
-                  "'" + name + "' is no response, there are " + to_text(known) +
+                  "'" + name + "' is not a response; the responses are " + to_text(known) +
                     did_you_mean(name, known));
   section.require(!response->name.empty() || !response->reads("Point"), entry, value,
                   "'" + name +
@@ -81,7 +81,7 @@ Parameters require_response(const Scene        &scene,
                   "'" + name + "' has no contact to measure in the scene");
   section.require(!response::make_response<3>(*response)->needs_density() ||
                     has_mass(scene, *response),
-                  entry, value, "'" + name + "' is zero: what it measures has no 'Density'");
+                  entry, value, "'" + name + "' is zero: its bodies have no 'Density'");
   return *response;
 }
 } // namespace

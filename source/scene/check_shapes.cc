@@ -21,7 +21,7 @@ void check_places(const Scene                  &scene,
                     body.mesh.source == geometry::Source::box,
                   "Interior", to_text(shape.interior),
                   "must be Laplace or elasticity for the body '" + body.name +
-                    "', which is no box");
+                    "', which is not a box");
 }
 } // namespace
 
@@ -37,6 +37,7 @@ void check_shapes(const Scene &scene, const Origins &origins)
                                  [](const auto &shape) { return shape.moves(); });
   if (!moves && scene.task != Task::state)
     throw origins.error(scene.shapes.front().path("Basis"), "none",
-                        "must not be none for the task " + to_text(scene.task));
+                        "must not be none: Task = " + to_text(scene.task) +
+                          " needs design variables");
 }
 } // namespace snug::scene

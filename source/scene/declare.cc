@@ -17,45 +17,48 @@ void add_names(Entries                  &entries,
 
 void declare_general(Entries &entries, Scene &scene)
 {
-  entries.add("Task", scene.task,
-              "state: solve one contact problem. sensitivity: also differentiate it by all "
-              "methods, side by side. optimize: find the best shape.");
-  entries.add("Dimension", scene.dimension, choice({{"2"}, {"3"}}), "Dimension of the meshes.");
+  entries.add("Task", scene.task, "The kind of run.");
+  entries.add("Dimension", scene.dimension, choice({{"2"}, {"3"}}), "The dimension of the meshes.");
   entries.add("Model", scene.model,
               choice_or_auto<mesh::Idealization::Kind>("solid in 3D, plane strain in 2D"),
-              "What the meshes stand for.");
-  entries.add("Thickness", scene.thickness, positive(),
-              "Thickness of plane strain and plane stress models [length]; forces, energies and "
-              "volumes are those of this thickness.");
+              "The mechanical model of the meshes.");
+  entries.add(
+    "Thickness", scene.thickness, positive(),
+    "The thickness to which forces, energies and volumes of plane strain and plane stress "
+    "models refer. Units: length.");
   add_names(entries, "Bodies", scene.bodies,
-            "Names of the bodies, separated by commas; each has its own subsection Body NAME.");
+            "The names of the bodies. Each body has a subsection Body NAME.");
   add_names(entries, "Materials", scene.materials,
-            "Names of materials, separated by commas; each has its own subsection Material NAME, "
-            "and bodies name those they are made of.");
-  add_names(
-    entries, "Obstacles", scene.obstacles,
-    "Names of rigid obstacles, separated by commas; each has its own subsection Obstacle NAME.");
+            "The names of the materials. Each material has a subsection Material NAME. Bodies "
+            "refer to materials by their names.");
+  add_names(entries, "Obstacles", scene.obstacles,
+            "The names of the rigid obstacles. Each obstacle has a subsection Obstacle NAME.");
   add_names(entries, "Shapes", scene.shapes,
-            "Names of the shapes, separated by commas; each has its own subsection Shape NAME. "
-            "Empty: one shape without a name, in subsection Shape.");
+            "The names of the shapes. Each shape has a subsection Shape NAME. An empty list means "
+            "one shape without a name, in subsection Shape.");
   add_names(
     entries, "Load cases", scene.load_cases,
-    "Names of the load cases, separated by commas; each has its own subsection Load case NAME with "
-    "loads besides those of the bodies. Empty: one, with the loads of the bodies alone.");
+    "The names of the load cases. Each load case has a subsection Load case NAME with loads "
+    "that are added to the loads of the bodies. An empty list means one load case with the "
+    "loads of the bodies.");
   add_names(entries, "Responses", scene.responses,
-            "Names of responses, separated by commas; each has its own subsection Response NAME. "
-            "Their values are reported, and they may be objective or constraints, as may "
-            "quantities under their own names.");
+            "The names of the responses. Each response has a subsection Response NAME. The values "
+            "of responses are reported, and responses can be the objective or constraints. A "
+            "quantity can also be used under its own name, without a subsection.");
   declare_gravity(entries, scene.gravity);
   entries.add("Output directory", scene.output_directory,
-              "Where results go; made if it is not there. Relative to the directory the program is "
-              "started in.");
-  entries.add("Element degree", scene.degree, choice({{"1"}, {"2"}}),
-              "Polynomial degree of the elements: 1 (bilinear, trilinear) or 2.");
-  entries.add("Least scaled Jacobian", scene.least_scaled_jacobian, between(0., 0.99),
-              "Meshes with a cell of less are refused, designs as if they were tangled: det J over "
-              "the product of the edges' lengths, 1 for right angles, 0 for tangled cells; 0: none "
-              "but tangled ones.");
+              "The name of the output directory, relative to the working directory. The directory "
+              "is created if it does not exist.");
+  entries.add("Element degree", scene.degree,
+              with_meanings(choice({{"1"}, {"2"}}),
+                            {{"1", "bilinear in 2D, trilinear in 3D"},
+                             {"2", "biquadratic in 2D, triquadratic in 3D"}}),
+              "The polynomial degree of the elements.");
+  entries.add(
+    "Least scaled Jacobian", scene.least_scaled_jacobian, between(0., 0.99),
+    "The minimum of det J over the product of the edge lengths, in all cells: 1 for right "
+    "angles, 0 for degenerate cells. Meshes below it are rejected, designs below it count "
+    "as tangled. A value of 0 rejects tangled cells only.");
 }
 
 /// Declare the subsections of the named items.
@@ -78,18 +81,20 @@ Access number_or_auto(std::optional<double> &value)
 
 void declare_solver(Entries &entries, Scene &scene)
 {
-  entries.begin_section("Solver", "Solving the contact problem.");
+  entries.begin_section("Solver", "Solution of the contact problem.");
   scene.solver.declare(entries);
-  Form form    = between(1e-14, 0.1);
+  Form form    = with_meanings(between(1e-14, 0.1),
+                               {{"auto", "1e-6, but at most 'Objective tolerance' in optimizations "
+                                            "whose objective or constraints are sensitive to these "
+                                            "errors. All responses of the state except the "
+                                            "potential energy are sensitive."}});
   form.allowed = "auto or a number";
   entries.add("Relative tolerance", number_or_auto(scene.state_tolerance), form,
-              "What the relative errors of equilibrium, continuity, penetration, negative pressure "
-              "and complementarity may be; between 1e-14 and 0.1. auto: 1e-6, but no more than "
-              "'Objective tolerance' in optimizations whose objective or constraints feel these "
-              "errors, as all that depend on the state but the potential energy do.");
+              "The tolerance of the relative errors of equilibrium, continuity, penetration, "
+              "negative pressure and complementarity, between 1e-14 and 0.1.");
   entries.add("Report linear reference", scene.report_linear_reference,
-              "Also solve the linear problem on the final contacts from zero and report its number "
-              "of F-mults.");
+              "Whether to solve also the linear problem with the final active contacts, from zero, "
+              "and to report its number of F-mults.");
   scene.feti.declare(entries);
 }
 } // namespace
@@ -97,30 +102,36 @@ void declare_solver(Entries &entries, Scene &scene)
 void declare(Entries &entries, Scene &scene)
 {
   declare_general(entries, scene);
-  declare_named(entries, scene.materials, "One isotropic, linear elastic material.");
-  declare_named(entries, scene.bodies, "One body: its mesh, material, supports and loads.");
+  declare_named(entries, scene.materials, "An isotropic, linear elastic material.");
+  declare_named(entries, scene.bodies, "A body: its mesh, material, supports and loads.");
   declare_named(
     entries, scene.load_cases,
-    "Loads of one load case besides those of the bodies and the scene. A displacement component "
-    "prescribed in one load case is held in all: at zero where they say nothing.");
-  declare_named(entries, scene.obstacles, "One rigid obstacle: nothing gets into it.");
-  entries.begin_section("Contact", "Which faces may touch, and how.");
+    "The loads of a load case, in addition to the loads of the bodies and of the scene. A "
+    "displacement component that one load case prescribes is held at zero in the load cases that "
+    "do not "
+    "prescribe it.");
+  declare_named(entries, scene.obstacles, "A rigid obstacle.");
+  entries.begin_section("Contact",
+                        "The pairs of faces that may come into contact, and the method.");
   scene.contact.declare(entries);
-  declare_named(entries, scene.contact.pairs, "Entries of Contact for one of its pairs.");
-  declare_named(entries, scene.shapes, "Design variables. Several shapes: see the entry 'Shapes'.");
-  entries.begin_section("Decomposition", "Tearing the bodies into subdomains.");
+  declare_named(entries, scene.contact.pairs, "Entries of Contact for one pair.");
+  declare_named(entries, scene.shapes,
+                "The design variables of a shape. For several shapes see the entry 'Shapes'.");
+  entries.begin_section("Decomposition",
+                        "Domain decomposition: tearing the bodies into subdomains.");
   scene.tearing.declare(entries);
   declare_solver(entries, scene);
-  entries.begin_section("Accuracy", "How far the mesh is from the truth.");
+  entries.begin_section("Accuracy", "Discretization error and adaptive mesh refinement.");
   scene.accuracy.declare(entries);
-  entries.begin_section("Gradient", "Derivatives by design variables.");
+  entries.begin_section("Gradient", "Derivatives with respect to the design variables.");
   scene.gradient.declare(entries);
-  declare_named(entries, scene.responses,
-                "One response: a number that a state or a design has. Entries that its quantity "
-                "does not read stay as they are.");
-  entries.begin_section("Optimization", "Finding the best shape.");
+  declare_named(
+    entries, scene.responses,
+    "A response: a scalar function of a state or a design. Entries that its quantity does "
+    "not read must keep their defaults.");
+  entries.begin_section("Optimization", "The optimizer and its stopping criteria.");
   scene.optimization.declare(entries);
-  entries.begin_section("Output", "What is written of states, in 'Output directory'.");
+  entries.begin_section("Output", "The log and the files in 'Output directory'.");
   scene.output.declare(entries);
 }
 } // namespace snug::scene

@@ -19,45 +19,46 @@ void require_count(const SectionCheck &section,
 
 void declare_gravity(Entries &entries, std::vector<double> &gravity)
 {
-  entries.add("Gravity", gravity, per_dimension(),
-              "Acceleration along x, y, z [length/time^2]; times 'Density' it is a body force: '0 "
-              "0 -9.81'. Empty: none.");
+  entries.add(
+    "Gravity", gravity, per_dimension(),
+    "The acceleration along x, y, z, which is multiplied by 'Density': '0 0 -9.81'. Units: "
+    "length/time^2. An empty list means no gravity.");
 }
 
 void LoadParameters::declare(Entries &entries, const std::string &key, const std::string &where)
 {
   const std::string list = "a list '" + key + ": ";
   entries.add("Displacement", displacements, allowed(list + "component = formula, ...'"),
-              "Prescribed displacement components [length]: x, y, z or normal, by formulas of x, "
-              "y, z in the reference geometry: '" +
+              "The prescribed displacement components x, y, z or normal, as formulas of x, y, z in "
+              "the reference geometry: '" +
                 where + ": z = -0.012, " + where +
-                ": x = 1e-3*y'. The other components stay free.");
+                ": x = 1e-3*y'. Components without a formula remain free. Units: length.");
   entries.add("Pressure", pressure, allowed(list + "formula, ...' of different boundaries"),
-              "Pressure [force/length^2], a number or a formula of x, y, z in the reference "
-              "geometry; positive pushes: '" +
-                where + ": 100*(1-x^2)'.");
+              "The pressure, a number or a formula of x, y, z in the reference geometry: '" +
+                where + ": 100*(1-x^2)'. A positive pressure pushes. Units: force/length^2.");
   entries.add("Traction", traction,
               allowed(list + "formula formula formula, ...' of different boundaries, one formula "
                              "per dimension, separated by blanks"),
-              "Force per area [force/length^2], numbers or formulas of x, y, z in the reference "
-              "geometry, separated by blanks: '" +
-                where + ": 0 0 -5*x'.");
+              "The force per area along x, y, z, numbers or formulas of x, y, z in the reference "
+              "geometry: '" +
+                where + ": 0 0 -5*x'. Units: force/length^2.");
   entries.add(
     "Force", force,
     allowed(list + "x y z, ...' of different boundaries, components separated by blanks"),
-    "Total force [force], spread evenly over the area of the boundary as the design makes it: '" +
-      where + ": 0 0 -1000'.");
+    "The total force along x, y, z, distributed uniformly over the area of the boundary in the "
+    "current design: '" +
+      where + ": 0 0 -1000'. Units: force.");
   entries.add("Moment", moment,
               allowed(list + "x y z, ...' of different boundaries, components separated by blanks"),
-              "Moment about the centroid of the boundary [force length], spread linearly over it; "
-              "one number in 2D: '" +
-                where + ": 0 50 0'.");
+              "The moment about the centroid of the boundary, distributed linearly over the "
+              "boundary: '" +
+                where + ": 0 50 0'. One number in 2D. Units: force length.");
 }
 
 void LoadCaseParameters::declare(Entries &entries)
 {
   entries.add("Weight", weight, at_least(0., "must not be negative"),
-              "Factor of its objective in the sum over load cases, or in their worst.");
+              "The weight of this load case in the combined objective.");
   declare_gravity(entries, gravity);
   loads.declare(entries, "body.boundary", "punch.top");
 }
@@ -101,7 +102,7 @@ void LoadParameters::check_displacements(const SectionCheck &section,
       const auto [name, formula] = split_displacement(item.second);
       const auto number          = component_number(name, section.dimension);
       section.require(number.has_value(), "Displacement", value,
-                      "'" + quotable(name) + "' is no component; " +
+                      "'" + quotable(name) + "' is not a component; " +
                         component_names(section.dimension));
       section.require(!formula.empty(), "Displacement", value,
                       "'" + quotable(item.second) + "' must read 'component = formula'");

@@ -12,18 +12,24 @@ bool OutputParameters::has(const std::string &field) const
 
 void OutputParameters::declare(Entries &entries)
 {
-  entries.add("Fields", fields,
-              "What solution.pvd shows of the bodies besides displacement and body: any of these. "
-              "Those that are left out take neither time nor room.");
-  entries.add("Compression", compression, between(0., 9.),
-              "Of *.vtu: 0: none; 1: fast; 9: smallest.");
-  entries.add("Ranks per file", ranks_per_file, at_least(1),
-              "Ranks whose cells share one file of a state, solution-STATE.GROUP.vtu: the first of "
-              "them writes it, and needs memory for all of it.");
-  entries.add("Export QP", export_qp,
-              "Also write the quadratic program of the first state and its solution into qp/, for "
-              "other solvers, as PETSc's binary files and in Matrix Market format: see "
-              "doc/export-qp.md.");
+  entries.add("Verbosity", verbosity, "The amount of text in the log.");
+  entries.add(
+    "Fields", fields,
+    "The fields of the bodies in solution.pvd, in addition to displacement and body. Fields "
+    "that are not listed are neither computed nor written.");
+  entries.add(
+    "Compression", compression, between(0., 9.),
+    "The compression level of .vtu files. A value of 0 means no compression, 1 the fastest, "
+    "9 the smallest files.");
+  entries.add(
+    "Ranks per file", ranks_per_file, at_least(1),
+    "The number of ranks whose cells share one file solution-STATE.GROUP.vtu. The first of "
+    "these ranks writes the file and needs memory for all of its content.");
+  entries.add(
+    "Export QP", export_qp,
+    "Whether to write the quadratic program of the first state and its solution into qp/, "
+    "for other solvers, as binary files of PETSc and in Matrix Market format. See "
+    "doc/export-qp.md.");
 }
 
 void OutputParameters::check(const SectionCheck &section) const

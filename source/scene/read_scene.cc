@@ -195,6 +195,15 @@ std::string table_cell(std::string text)
   return text;
 }
 
+/// Print the values of an entry that have meanings as a list, one line each.
+void print_meanings(const Entries::Description &entry, std::ostream &out)
+{
+  if (entry.form.meanings.empty())
+    return;
+  out << "\n`" << entry.name << "`:\n\n";
+  for (const auto &[value, meaning] : entry.form.meanings)
+    out << "* `" << value << "`: " << meaning << "\n";
+}
 } // namespace
 
 std::string read_text(const std::string &file, MPI_Comm communicator, const TextSource source)
@@ -254,8 +263,8 @@ void print_reference(std::ostream &out)
     return text.empty() || text == "NAME" || text == "SLAVE: MASTER" ? "" : "`" + text + "`";
   };
   out << "# Parameters\n\n"
-         "Printed by `snug --print-parameters`. Units are yours, but they "
-         "must be consistent: with mm, N and MPa, energies are N mm.\n";
+         "`snug --print-parameters` prints this page. Any consistent system of units can be used: "
+         "with mm, N and MPa, energies are in N mm.\n";
   for (const auto &section : entries.sections())
     {
       out << "\n## "
@@ -269,6 +278,9 @@ void print_reference(std::ostream &out)
         if (entry.section == section.name)
           out << "| `" << entry.name << "` | " << initial(entry.initial) << " | "
               << table_cell(entry.form.allowed) << " | " << table_cell(entry.meaning) << " |\n";
+      for (const auto &entry : entries.descriptions())
+        if (entry.section == section.name)
+          print_meanings(entry, out);
     }
 }
 } // namespace snug::scene

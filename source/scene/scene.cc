@@ -43,7 +43,7 @@ std::vector<unsigned int> component_list(const std::string &words, const unsigne
   const auto                add = [&](const std::string &name) {
     const auto number = component_number(name, dimension);
     if (!number)
-      throw std::invalid_argument("'" + name + "' is no component");
+      throw std::invalid_argument("'" + name + "' is not a component");
     if (std::find(components.begin(), components.end(), *number) != components.end())
       throw std::invalid_argument("'" + name + "' occurs twice");
     components.push_back(*number);

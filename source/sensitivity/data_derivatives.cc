@@ -43,7 +43,7 @@ elasticity::SemiAnalytic<dim> semi_analytic(const state::StateSolver<dim> &solve
 template <int dim>
 struct SubdomainDerivative
 {
-  using Field     = typename mesh::BodyMesh<dim>::Field;
+  using Field     = mesh::Field<dim>;
   using Tractions = typename state::ResultantLoads<dim>::Tractions;
 
   const state::StateSolver<dim>       &solver;
@@ -241,10 +241,10 @@ void add_row_derivatives(const std::vector<feti::BEntry> &B_derivative,
 } // namespace
 
 template <int dim>
-KktVectors data_derivatives(const state::StateSolver<dim>                          &solver,
-                            const state::ContactState<dim>                         &state,
-                            const std::vector<typename mesh::BodyMesh<dim>::Field> &velocities,
-                            const GradientParameters                               &parameters)
+KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
+                            const state::ContactState<dim>      &state,
+                            const std::vector<mesh::Field<dim>> &velocities,
+                            const GradientParameters            &parameters)
 {
   const unsigned int k         = velocities.size();
   const auto        &layout    = solver.gluing().layout();
@@ -284,10 +284,10 @@ KktVectors data_derivatives(const state::StateSolver<dim>                       
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                           \
-  template KktVectors data_derivatives(const state::StateSolver<dim> &,                 \
-                                       const state::ContactState<dim> &,                \
-                                       const std::vector<mesh::BodyMesh<dim>::Field> &, \
+#define SNUG_INSTANTIATE(dim)                                                 \
+  template KktVectors data_derivatives(const state::StateSolver<dim> &,       \
+                                       const state::ContactState<dim> &,      \
+                                       const std::vector<mesh::Field<dim>> &, \
                                        const GradientParameters &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

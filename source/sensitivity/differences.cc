@@ -6,8 +6,8 @@ namespace {
 template <int dim>
 struct Values
 {
-  std::vector<double>                 responses;
-  typename mesh::BodyMesh<dim>::Field displacement;
+  std::vector<double> responses;
+  mesh::Field<dim>    displacement;
 
   Values(const GradientProblem<dim>     &problem,
          const Responses<dim>           &to_evaluate,
@@ -44,9 +44,9 @@ Gradients<dim> difference_gradients(const GradientProblem<dim> &problem,
     result.of_response.push_back({Method::finite_differences, "", {}});
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
     {
-      const double                        step = parameters.step * problem.bound_widths[j];
-      std::vector<double>                 slopes(responses.size());
-      typename mesh::BodyMesh<dim>::Field field(here.displacement.size());
+      const double        step = parameters.step * problem.bound_widths[j];
+      std::vector<double> slopes(responses.size());
+      mesh::Field<dim>    field(here.displacement.size());
       for (unsigned int k = 0; k < stencil.places.size(); ++k)
         {
           auto design = problem.design;

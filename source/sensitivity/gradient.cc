@@ -63,8 +63,8 @@ std::vector<MethodChoice> methods(const GradientProblem<dim> &problem,
 /// Return this rank's share of the field V (V'V)^+ values. This field lies in the
 /// span of the velocities V and has the products @p values with them.
 template <int dim>
-typename mesh::BodyMesh<dim>::Field spanned_field(const GradientProblem<dim> &problem,
-                                                  const std::vector<double>  &values)
+mesh::Field<dim> spanned_field(const GradientProblem<dim> &problem,
+                               const std::vector<double>  &values)
 {
   const auto        &mesh = problem.solver.mesh();
   const unsigned int k    = values.size();
@@ -98,14 +98,14 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
   for (const auto *response : responses)
     n_solves += needs_solve(*response);
   const MethodChoice solving{n_solves < n_variables ? Method::adjoint : Method::direct,
-                             "solves for " + std::to_string(n_solves) + " responses against " +
-                               std::to_string(n_variables) + " variables"};
+                             counted(n_solves, "response") + ", " +
+                               counted(n_variables, "variable")};
   std::vector<MethodChoice> choices;
   for (const auto *response : responses)
     if (!response->needs_solution())
-      choices.push_back({Method::energy, "depends on the geometry alone"});
+      choices.push_back({Method::energy, "depends only on the geometry"});
     else if (response->stationary())
-      choices.push_back({Method::energy, "stationary at the state, no solve"});
+      choices.push_back({Method::energy, "needs no linear solve"});
     else
       choices.push_back(solving);
   return choices;

@@ -82,7 +82,7 @@ KktVectors adjoint_states(const state::StateSolver<dim>    &solver,
 template <int dim>
 KktVectors residual_derivatives(const GradientProblem<dim> &problem)
 {
-  std::vector<typename mesh::BodyMesh<dim>::Field> velocities;
+  std::vector<mesh::Field<dim>> velocities;
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
     velocities.push_back(problem.basis.column(j));
   return data_derivatives(problem.solver, problem.state, velocities, problem.parameters);

@@ -5,7 +5,7 @@
 namespace snug::sensitivity {
 namespace {
 template <int dim>
-using Field = typename mesh::BodyMesh<dim>::Field;
+using Field = mesh::Field<dim>;
 
 /// Add d/dX (eta'(g - B u) - lambda'B w) to @p gradient. Collective.
 template <int dim>
@@ -60,11 +60,11 @@ void add_held(const state::StateSolver<dim>  &solver,
 } // namespace
 
 template <int dim>
-void add_residual_gradient(const state::StateSolver<dim>       &solver,
-                           const state::ContactState<dim>      &state,
-                           const KktVectors                    &adjoint,
-                           unsigned int                         j,
-                           typename mesh::BodyMesh<dim>::Field &gradient)
+void add_residual_gradient(const state::StateSolver<dim>  &solver,
+                           const state::ContactState<dim> &state,
+                           const KktVectors               &adjoint,
+                           unsigned int                    j,
+                           mesh::Field<dim>               &gradient)
 {
   feti::PrimalVectors w;
   for (const auto &part : adjoint.primal)
@@ -78,7 +78,7 @@ void add_residual_gradient(const state::StateSolver<dim>       &solver,
 #define SNUG_INSTANTIATE(dim)                                                               \
   template void add_residual_gradient(const state::StateSolver<dim> &,                      \
                                       const state::ContactState<dim> &, const KktVectors &, \
-                                      unsigned int, mesh::BodyMesh<dim>::Field &);
+                                      unsigned int, mesh::Field<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

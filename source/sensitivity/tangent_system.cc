@@ -101,14 +101,14 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   for (unsigned int j = 0; j < sizes.size(); ++j)
     tolerances[j] = std::max(parameters.relative_tolerance * tolerances[j], rounding * sizes[j]);
   if (!balanced(b, result.dual))
-    throw SolveError("no derivative: the response sees, or the design unbalances, a motion that a "
-                     "body is free to make");
+    throw SolveError("no derivative: a rigid body motion is not constrained, and the response "
+                     "depends on it or the design changes the loads along it");
   // Where the rounding of soft modes stalls the deflated solve, repeat it without deflation.
   if (!minimize(result.dual, residual, tolerances, true) &&
       !minimize(result.dual, residual, tolerances, false))
     throw SolveError("the sensitivities were not solved to the relative "
-                     "tolerance; allow a larger 'Solver/Relative "
-                     "tolerance' or more 'Solver/Maximum F-mults'");
+                     "tolerance; increase 'Solver/Relative "
+                     "tolerance' or 'Solver/Maximum F-mults'");
   auto amplitudes = free_set->amplitudes(residual);
   for (unsigned int j = 0; j < amplitudes.n_columns(); ++j)
     for (unsigned int i = 0; i < amplitudes.n_rows(); ++i)

@@ -85,7 +85,7 @@ std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &
       const auto found = std::find(bodies.names.begin(), bodies.names.end(), name);
       if (found == bodies.names.end())
         throw bad_entry(parameters.path("Bodies"), to_text(parameters.bodies),
-                        "there is no body '" + name + "', there are " + to_text(bodies.names));
+                        "there is no body '" + name + "'; the bodies are " + to_text(bodies.names));
       result[found - bodies.names.begin()] = true;
     }
   return result;

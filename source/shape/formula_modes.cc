@@ -72,7 +72,7 @@ Modes<dim> formula_modes(const mesh::BodyMesh<dim> &mesh,
   const auto is_wanted = wanted_bodies(bodies, parameters);
   Modes<dim> modes;
   // A formula may have no finite value at a node that only one rank has. All ranks must throw then.
-  everywhere(mesh.communicator(), [&]() {
+  throw_collectively(mesh.communicator(), [&]() {
     modes = modes_at<dim>(
       mesh.reference_positions(),
       [&](unsigned int node) {

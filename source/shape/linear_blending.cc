@@ -69,7 +69,7 @@ private:
     Tangential lower, upper;
   };
 
-  static typename mesh::BodyMesh<dim>::Field logical(const mesh::BodyMesh<dim> &mesh)
+  static mesh::Field<dim> logical(const mesh::BodyMesh<dim> &mesh)
   {
     return {mesh.logical_positions().begin(), mesh.logical_positions().end()};
   }

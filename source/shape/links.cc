@@ -204,8 +204,7 @@ Links::Links(const std::vector<Control<dim>> &controls, const ShapeParameters &p
     }
   if (size == 0)
     throw bad_entry(parameters.path("Fixed"), to_text(parameters.fixed),
-                    "all control points are fixed or frozen: nothing is "
-                    "left to move");
+                    "all control points are fixed: there are no design variables");
 }
 
 /// Fixed controls have the sign 0, and the variable index of a fixed control has no meaning.

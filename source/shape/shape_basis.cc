@@ -206,9 +206,9 @@ std::vector<std::pair<unsigned int, unsigned int>> Shape<dim>::faces() const
 }
 
 template <int dim>
-typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
-                                              const ShapeBasis<dim>     &basis,
-                                              const std::vector<double> &design)
+mesh::Field<dim> positions(const mesh::BodyMesh<dim> &mesh,
+                           const ShapeBasis<dim>     &basis,
+                           const std::vector<double> &design)
 {
   auto       x = mesh.reference_positions();
   const auto v = basis.apply(design);
@@ -231,7 +231,7 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
                                "Direction", "Symmetry",   "Fixed"};
   // The degree 0 of spline_net() stands for Bernstein polynomials.
   static const ChoiceTable<MakeShape<dim>> table = {
-    {"none", "the shape is fixed",
+    {"none", "no design variables",
      [](const auto &mesh, const auto &, const auto &) {
        Modes<dim> none;
        none.n_nodes = mesh.n_points();
@@ -247,20 +247,19 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
        return patch(mesh, bodies, parameters, parameters.degree);
      },
      with(patch_entries, {"Degree"})},
-    {"node-wise", "smoothed moves [length] of all nodes of a face",
+    {"node-wise", "filtered displacements [length] of all nodes of a face",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return on_face(mesh, bodies, parameters,
                       [&](const auto &face) { return node_wise(face, parameters); });
      },
      with(face_entries, {"Filter radius"})},
-    {"Bezier box",
-     "moves [length] of Bézier control points of a free-form deformation "
-     "box",
+    {"Bezier box", "displacements [length] of Bézier control points of a free-form deformation box",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return std::make_unique<Shape<dim>>(mesh, spline_box(mesh, bodies, parameters, 0u));
      },
      box_entries},
-    {"B-spline box", "the same with B-splines",
+    {"B-spline box",
+     "displacements [length] of B-spline control points of a free-form deformation box",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return std::make_unique<Shape<dim>>(mesh,
                                            spline_box(mesh, bodies, parameters, parameters.degree));
@@ -273,13 +272,12 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
   return table;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                         \
-  template struct Modes<dim>;                                                         \
-  template class ShapeBasis<dim>;                                                     \
-  template class Shape<dim>;                                                          \
-  template mesh::BodyMesh<dim>::Field         positions(const mesh::BodyMesh<dim> &,  \
-                                                        const ShapeBasis<dim> &,      \
-                                                        const std::vector<double> &); \
+#define SNUG_INSTANTIATE(dim)                                                               \
+  template struct Modes<dim>;                                                               \
+  template class ShapeBasis<dim>;                                                           \
+  template class Shape<dim>;                                                                \
+  template mesh::Field<dim> positions(const mesh::BodyMesh<dim> &, const ShapeBasis<dim> &, \
+                                      const std::vector<double> &);                         \
   template const ChoiceTable<MakeShape<dim>> &shape_basis_table();
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -9,47 +9,52 @@ namespace snug::shape {
 namespace {
 void declare_places(Entries &entries, ShapeParameters &shape)
 {
-  entries.add(
-    "Face", shape.face, allowed("body.boundary"),
-    "The face that is shaped, 'body.boundary', by patches, node-wise or by formula modes.");
+  entries.add("Face", shape.face, allowed("body.boundary"),
+              "The face that patches, node-wise variables or formula modes shape.");
   entries.add("Bodies", shape.bodies,
-              "The bodies that boxes, or formula modes without a face, shape; empty: all.");
+              "The bodies that boxes, or formula modes without a face, shape. An empty list means "
+              "all bodies.");
   entries.add("Box corner", shape.box_corner, per_dimension(),
-              "Corner of a free-form deformation box with the smallest coordinates [length].");
+              "The corner of a free-form deformation box with the smallest coordinates. Units: "
+              "length.");
   entries.add(
     "Box size", shape.box_size, per_dimension(positive()),
-    "Its edges along x, y, z [length]. Control points on sides that cut a body are frozen.");
+    "The edge lengths of the free-form deformation box along x, y, z. Control points on sides of "
+    "the box that cut a body are fixed. Units: length.");
 }
 
 void declare_modes(Entries &entries, ShapeParameters &shape)
 {
-  entries.add("Control points", shape.control_points,
-              "Number of control points along each edge of the face or box, in the order x, y, z; "
-              "numbered with the first edge fastest.");
+  entries.add(
+    "Control points", shape.control_points,
+    "The numbers of control points along the edges of the face or box, in the order x, y, "
+    "z. Control points are numbered along the first edge first.");
   entries.add(
     "Degree", shape.degree,
-    "Degree of B-splines, at least 1 and below the number of control points along each edge.");
-  entries.add("Direction", shape.direction, per_dimension(),
-              "Direction x, y, z in which control points or nodes move, one design variable each. "
-              "Empty: normal to the face; in boxes along each axis, so that a control point has as "
-              "many variables as the scene dimensions.");
+    "The degree of B-splines, at least 1 and below the number of control points along each edge.");
+  entries.add(
+    "Direction", shape.direction, per_dimension(),
+    "The direction x, y, z in which control points or nodes move, with one design variable "
+    "each. An empty list means the normal of the face. For boxes it means all axes, with "
+    "one design variable per axis and control point.");
   entries.add("Filter radius", shape.filter_radius,
-              "Node-wise: a node follows the mean of the variables within this radius [length], "
-              "with weights that fall linearly to zero.");
+              "The radius of the filter of node-wise variables. A node moves by the mean of the "
+              "variables within this radius, with weights that decrease linearly to zero. Units: "
+              "length.");
   entries.add("Modes", access(shape.modes, ';'),
               allowed("a list 'FORMULA, FORMULA, FORMULA; ...' of vectors separated by semicolons"),
-              "Formula modes: vector fields of x, y, z, one per design variable, separated by "
-              "semicolons: '0, 0, x*(1-x); 0, 0, max(0,y)'.");
+              "The vector fields of formula modes as formulas of x, y, z, one field per design "
+              "variable: '0, 0, x*(1-x); 0, 0, max(0,y)'.");
 }
 
 void declare_links(Entries &entries, ShapeParameters &shape)
 {
   entries.add("Fixed", shape.fixed, allowed("a list of 'border' and numbers of control points"),
-              "Control points or nodes that stay: 'border' (of the face or box) and numbers "
-              "counted from 0 as in control-points.csv.");
+              "The control points or nodes that do not move: 'border' (of the face or box) and "
+              "numbers counted from 0 as in control-points.csv.");
   entries.add("Symmetry", shape.symmetry, allowed("a list 'axis: number, ...' of different axes"),
-              "Mirror planes, axis: coordinate [length], which tie control points or nodes to "
-              "their images: 'x: 0.5'.");
+              "The mirror planes that tie control points or nodes to their images, as axis and "
+              "coordinate: 'x: 0.5'. Units: length.");
 }
 
 /// Return the entries that the basis of @p shape reads.
@@ -108,20 +113,24 @@ void check_links(const SectionCheck &section, const ShapeParameters &shape)
 void ShapeParameters::declare(Entries &entries)
 {
   entries.add("Basis", basis, choice(names(shape_basis_table<3>())),
-              "How design variables move the nodes.");
+              "The functions by which design variables move nodes.");
   declare_places(entries, *this);
   declare_modes(entries, *this);
   declare_links(entries, *this);
   entries.add("Interior", interior,
-              "How the nodes of the body follow its shaped face. With Laplace and elasticity, "
-              "faces that touch the shaped one slide in themselves and the others stay. Boxes and "
-              "fields on bodies need none.");
-  entries.add("Reach", reach, at_least(0., "must be positive, or 0 for the whole body"),
-              "How far from the shaped face [length] the interior follows; 0: through the whole "
-              "body. What does not move is not assembled again.");
-  entries.add("Bounds", bounds, "Smallest and largest value of a design variable [length].");
+              "The motion of the nodes inside the body when its face is shaped. With Laplace and "
+              "elasticity, nodes of faces adjacent to the shaped face slide in these faces, and "
+              "nodes of all other faces do not move. Boxes and modes of bodies do not use it.");
+  entries.add(
+    "Reach", reach, at_least(0., "must be positive, or 0 for the whole body"),
+    "The distance from the shaped face within which nodes inside the body move. Subdomains "
+    "without moving nodes are not assembled again. Units: length. A value of 0 means the "
+    "whole body.");
+  entries.add("Bounds", bounds,
+              "The minimum and the maximum of the design variables. Units: length.");
   entries.add("Initial", initial,
-              "Design variables at the start [length]: one for all, one for each, or empty: 0.");
+              "The initial values of the design variables, one for all or one for each. Units: "
+              "length. An empty list means 0.");
 }
 
 bool ShapeParameters::reads(const std::string &entry) const

@@ -236,8 +236,8 @@ private:
         KSPConvergedReason reason;
         check(KSPGetConvergedReason(solver, &reason));
         if (reason < 0)
-          throw SolveError("the interior of a shaped body was not found: "
-                           "conjugate gradients ended with PETSc's reason " +
+          throw SolveError("the interior motion of a shaped body was not "
+                           "computed: conjugate gradients stopped with PETSc's reason " +
                            std::to_string(reason));
         check(VecAXPY(x, 1., correction));
         check(MatMult(matrix, x, residual));

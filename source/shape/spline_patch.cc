@@ -44,7 +44,7 @@ std::vector<unsigned int> patch_axes(const ShapedFace<dim> &face, const ShapePar
     // plane.
     if (!(normal * mean_normal > least_cosine && normal[across] * mean_normal[across] > -1e-9))
       throw bad_entry(parameters.path("Face"), parameters.face,
-                      "must not turn by more than a quarter for a patch; "
+                      "must have normals that differ by at most 90 degrees for a patch; "
                       "use a box, node-wise or formula modes");
   std::vector<unsigned int> axes;
   for (unsigned int d = 0; d < dim; ++d)

@@ -111,8 +111,9 @@ Assumptions assess(const StateSolver<dim>               &solver,
 
   const auto &surface = solver.surface();
   const auto  x       = surface.gather(state.positions);
-  const auto  slips   = solver.contact().slips(x, contact_rows, surface.gather(state.displacement));
-  const auto  drifts  = solver.contact().drifts(x, contact_rows);
+  const auto  slips =
+    solver.contact().tangential_slips(x, contact_rows, surface.gather(state.displacement));
+  const auto drifts = solver.contact().pairing_drifts(x, contact_rows);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
     {
       // Open contacts count as well, because they would close at the wrong point.
@@ -133,43 +134,43 @@ std::vector<std::string> warnings(const Assumptions &assumptions)
   std::vector<std::string> lines;
   if (assumptions.rotation > large_rotation)
     lines.push_back(
-      line("cells turn by", assumptions.rotation, " rad", ": small rotations are assumed"));
+      line("cells rotate by", assumptions.rotation, " rad", ": small rotations are assumed"));
   if (assumptions.strain > large_strain)
-    lines.push_back(line("strains are", assumptions.strain, "", ": small ones are assumed"));
+    lines.push_back(line("strains are", assumptions.strain, "", ": small strains are assumed"));
   if (assumptions.slip > large_slip)
-    lines.push_back(line("active contacts slide by", assumptions.slip, " of a face",
-                         ": small sliding is assumed"));
+    lines.push_back(line("active contacts slip tangentially by", assumptions.slip, " of a face",
+                         ": small slip is assumed"));
   if (assumptions.drift > large_drift)
-    lines.push_back(line("the design moved slave nodes off the points they were paired "
-                         "with by",
+    lines.push_back(line("the design moved slave nodes away from their paired points by",
                          assumptions.drift, " of a face", ": see 'Contact/Update pairing'"));
   if (assumptions.width < least_width)
     {
       std::ostringstream text;
       text.precision(2);
-      text << "a contact is " << assumptions.width
-           << " faces wide: its pressures need finer meshes there, of 8 faces or more";
+      text << "minimum number of faces across a contact: " << assumptions.width
+           << ", at least 8 are recommended for accurate pressures";
       lines.push_back(text.str());
     }
   if (assumptions.facet_height > large_facets * assumptions.closed_gap)
     {
       std::ostringstream text;
       text.precision(2);
-      text << "facets that contact sees are " << assumptions.facet_height
-           << " high, but the largest gap or overlap it closes is " << assumptions.closed_gap
-           << ": pressures follow the facets; see 'Surface', or take a finer mesh file";
+      text << "the facet height " << assumptions.facet_height << " of a contact surface is "
+           << 100. * assumptions.facet_height / assumptions.closed_gap
+           << " % of the largest gap or overlap that closes: pressures follow the facets; set "
+              "'Surface', or use a finer mesh file";
       lines.push_back(text.str());
     }
   return lines;
 }
 
 namespace {
-/// Return a text like ", 0.3 of a face".
+/// Return a text like " (0.3 times the face size)".
 std::string of_a_face(const contact::PairedGaps &gaps)
 {
   std::ostringstream text;
   text.precision(2);
-  text << ", " << gaps.overlap << " of a face";
+  text << " (" << gaps.overlap << " times the face size)";
   return text.str();
 }
 } // namespace
@@ -181,9 +182,8 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
     // Gaps are replicated like all contact data, so all ranks throw, or none.
     if (gaps[p].overlap > absurd_overlap && !pairs[p].parameters.interference)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
-                      line("the sides overlap at first by", -gaps[p].least, of_a_face(gaps[p]),
-                           ": if they are the right ones, set the pair's "
-                           "'Interference'"));
+                      line("the sides overlap initially by", -gaps[p].least, of_a_face(gaps[p]),
+                           ": if the overlap is intended, set 'Interference' of the pair"));
 }
 
 std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>       &pairs,
@@ -192,8 +192,9 @@ std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>      
   std::vector<std::string> lines;
   for (unsigned int p = 0; p < pairs.size(); ++p)
     if (gaps[p].overlap > large_overlap && !pairs[p].parameters.interference)
-      lines.push_back(line("'" + pairs[p].name() + "' overlaps at first by", -gaps[p].least,
-                           of_a_face(gaps[p]), ": if that is wanted, set its 'Interference'"));
+      lines.push_back(line("'" + pairs[p].name() + "' overlaps initially by", -gaps[p].least,
+                           of_a_face(gaps[p]),
+                           ": if the overlap is intended, set 'Interference' of the pair"));
   return lines;
 }
 
@@ -207,16 +208,16 @@ std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     
       lines.push_back("'" + pairs[p].name() + "' is nodal, but " +
                       std::to_string(matchings[p].n_nodes - matchings[p].n_matching) + " of " +
                       std::to_string(matchings[p].n_nodes) +
-                      " slave nodes meet no master node: pressures are off by some percent from "
-                      "node to node; its 'Method' mortar has none of that");
+                      " slave nodes match no master node: pressures oscillate by some percent from "
+                      "node to node; 'Method' = mortar avoids this");
     else if (!pairs[p].obstacle && pairs[p].parameters.method == contact::Method::mortar &&
              matchings[p].finer > finer_slave)
       {
         std::ostringstream text;
         text.precision(2);
         text << "the slave faces of '" << pairs[p].name() << "' are " << matchings[p].finer
-             << " times finer than those of the master: pressures scatter; the default of 'Slave' "
-                "takes the other side";
+             << " times finer than the master faces: pressures oscillate; the default of 'Slave' "
+                "selects the other side";
         lines.push_back(text.str());
       }
   return lines;

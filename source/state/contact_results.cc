@@ -138,7 +138,7 @@ void sum_up_contact(const contact::Contact<dim> &contact,
 {
   std::vector<double> pressures; // of shared nodes, by their first row
   pressures.assign(state.contact.size(), 0.);
-  for (const auto &node : contact.shared_nodes())
+  for (const auto &node : contact.dependent_multipliers())
     {
       double pressure = 0.;
       for (const auto &row : node.rows)

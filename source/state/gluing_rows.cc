@@ -38,12 +38,12 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
   // contact rows come after those of gluing and supports on the same rank.
   collect_surface(tearing);
   scale_rows(reference);
-  const auto           ranks = cluster_ranks(reference.contact);
+  const auto           ranks = assign_row_owners(reference.contact);
   const auto           nodes = collect_copies(tearing, ranks);
   std::vector<Message> messages;
   number_node_rows(nodes, reference, messages);
   number_contact_rows(nodes, reference.contact, ranks, messages);
-  deliver(messages, tearing);
+  send_entries(messages, tearing);
 }
 
 template <int dim>
@@ -102,7 +102,7 @@ void GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
 
 template <int dim>
 std::vector<unsigned int>
-GluingRows<dim>::cluster_ranks(const std::vector<contact::Row<dim>> &contact_rows) const
+GluingRows<dim>::assign_row_owners(const std::vector<contact::Row<dim>> &contact_rows) const
 {
   // Contact rows that share nodes form clusters. The rank of the first node of a cluster owns all
   // rows at the nodes of the cluster, so that B D^-1 B' is block diagonal over ranks.
@@ -243,7 +243,8 @@ void GluingRows<dim>::number_contact_rows(const Copies                         &
 }
 
 template <int dim>
-void GluingRows<dim>::deliver(const std::vector<Message> &messages, const mesh::Tearing &tearing)
+void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
+                                   const mesh::Tearing        &tearing)
 {
   const MPI_Comm     comm    = mesh.communicator();
   const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(comm);

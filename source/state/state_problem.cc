@@ -49,7 +49,7 @@ void check_reference(const StateProblem<dim> &problem)
       const auto  found   = flaw(model.body_names[cell.body], X.front(), element.quality(X),
                                  element.scaled_jacobian(X), model.least_scaled_jacobian);
       if (!found.empty())
-        throw InputError(found + " before any design; see its 'Warp' and 'Curved faces'");
+        throw InputError(found + " in the initial mesh; check its 'Warp' and 'Curved faces'");
     }
 }
 } // namespace
@@ -75,7 +75,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   boxes = body_boxes(mesh);
   if (mesh.idealization().is_axisymmetric())
     check_radii(mesh, model.body_names);
-  everywhere(context.communicator(), [&]() { check_reference(*this); });
+  throw_collectively(context.communicator(), [&]() { check_reference(*this); });
   held    = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
                                                                   model.load_cases.size(), positions);
   contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
@@ -169,7 +169,7 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
             const auto found = flaw(model.body_names[systems[s].body], X.front(), quality, jacobian,
                                     model.least_scaled_jacobian);
             if (!found.empty())
-              throw TangledMesh(found + "; tighten the bounds of the shape");
+              throw TangledMesh(found + "; reduce the bounds of the shape");
           }
         result[s] = jacobian;
       }
@@ -201,7 +201,7 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
           std::copy(f.begin(), f.end(), loads[c][s].column(0));
         }
   };
-  everywhere(context.communicator(), [&]() {
+  throw_collectively(context.communicator(), [&]() {
     for (unsigned int s = 0; s < systems.size(); ++s)
       assemble_subdomain(s);
   });
@@ -219,7 +219,8 @@ void StateProblem<dim>::linearize(const Field &positions)
   {
     const RunContext::Timer timer(context, "assembly");
     std::vector<double>     jacobians;
-    everywhere(context.communicator(), [&]() { jacobians = checked_jacobians(positions, moved); });
+    throw_collectively(context.communicator(),
+                       [&]() { jacobians = checked_jacobians(positions, moved); });
     scaled_jacobians = jacobians;
     jacobians.push_back(1.); // for a rank without cells
     // Only one set of matrices and factors exists at a time. The factors of moved subdomains go
@@ -288,9 +289,9 @@ void StateProblem<dim>::check_vanished_rows(unsigned int load_case) const
     if (gluing->gap(i, present.rows, load_case) < -1e-10 * length)
       {
         std::ostringstream text;
-        text << "no equilibrium: contact row " << i << " overlaps by "
+        text << "no equilibrium: contact row " << i << " has an overlap of "
              << -gluing->gap(i, present.rows, load_case)
-             << " between nodes that are held in its direction";
+             << ", but supports hold its nodes in the contact direction";
         throw SolveError(text.str());
       }
 }

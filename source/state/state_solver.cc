@@ -54,7 +54,7 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
     }
   std::ostringstream text;
   text << "the certificate of the contact state stays at " << state.certificate.worst()
-       << ", above the tolerance " << wanted << "; allow a larger 'Solver/Relative tolerance'";
+       << ", above the tolerance " << wanted << "; increase 'Solver/Relative tolerance'";
   throw SolveError(text.str());
 }
 
@@ -65,6 +65,7 @@ StateSolver<dim>::StateSolver(const mesh::BodyMesh<dim> &mesh,
                               const Field               &positions,
                               RunContext                &context)
   : problem(std::make_unique<StateProblem<dim>>(mesh, tearing, model, positions, context))
+  , relative_tolerance(model.solver.relative_tolerance)
 {}
 
 template <int dim>
@@ -79,7 +80,7 @@ ContactState<dim>
 StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case)
 {
   problem->set(positions, load_case);
-  return solve_present(positions, start, load_case, model().solver.relative_tolerance);
+  return solve_present(positions, start, load_case, relative_tolerance);
 }
 
 template <int dim>
@@ -116,14 +117,16 @@ ContactState<dim> StateSolver<dim>::solve_present(const Field         &positions
 template <int dim>
 const feti::LoadedProblem &StateSolver<dim>::feti(const ContactState<dim> &state) const
 {
-  Assert(state.pairing == n_pairings, dealii::ExcMessage("the state is of another pairing"));
+  Assert(state.pairing == n_pairings,
+         dealii::ExcMessage("the state belongs to another contact search"));
   return problem->loaded(state.positions, state.load_case);
 }
 
 template <int dim>
 void StateSolver<dim>::restore(const ContactState<dim> &state)
 {
-  Assert(state.pairing == n_pairings, dealii::ExcMessage("the state is of another pairing"));
+  Assert(state.pairing == n_pairings,
+         dealii::ExcMessage("the state belongs to another contact search"));
   problem->set(state.positions, state.load_case);
 }
 

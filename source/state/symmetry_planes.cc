@@ -104,10 +104,11 @@ std::string line(const std::string &side, const std::string &plane, const double
 {
   std::ostringstream text;
   text.precision(3);
-  text << "'" << side << "' meets " << plane << " at "
-       << std::acos(cosine) * 180. / dealii::numbers::PI
-       << " degrees instead of 90: if that is a plane of symmetry, the whole body has an edge "
-          "there; 'at' in 'Curved faces' of a box places the apex";
+  text
+    << "'" << side << "' meets " << plane << " at "
+    << std::acos(cosine) * 180. / dealii::numbers::PI
+    << " degrees instead of 90: if this is a plane of symmetry, the full body has an edge there; "
+       "'at' in 'Curved faces' of a box sets the apex";
   return text.str();
 }
 } // namespace

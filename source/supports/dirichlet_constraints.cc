@@ -39,8 +39,8 @@ template <int dim>
 TangledMesh dependent_error(const dealii::Tensor<1, dim> &x)
 {
   std::ostringstream text;
-  text << "supports hold the node at (" << x
-       << ") along directions that the design has made dependent";
+  text << "the design makes the directions of the supports at the node (" << x
+       << ") linearly dependent";
   return TangledMesh(text.str());
 }
 
@@ -51,8 +51,8 @@ InputError conflict(const dealii::Tensor<1, dim>         &x,
                     const std::pair<std::string, double> &b)
 {
   std::ostringstream text;
-  text << a.first << " and " << b.first << " hold the node at (" << x
-       << ") in one direction at different displacements, " << a.second << " and " << b.second;
+  text << a.first << " and " << b.first << " prescribe different displacements, " << a.second
+       << " and " << b.second << ", in the same direction at the node (" << x << ")";
   return InputError(text.str());
 }
 } // namespace

@@ -41,7 +41,7 @@ LinearSolver::LinearSolver(const Bonded &bonded, const LinearMethod &method)
 
 void LinearSolver::factorize()
 {
-  // As if the values were new: PETSc keeps what it has made of those it knows.
+  // Mark the values as new, because PETSc keeps the factors of unchanged values.
   check(MatAssemblyBegin(bonded.matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(bonded.matrix, MAT_FINAL_ASSEMBLY));
   check(KSPSetOperators(solver, bonded.matrix, bonded.matrix));

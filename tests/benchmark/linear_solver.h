@@ -31,7 +31,7 @@ public:
   /// From zero. @throws std::runtime_error if it misses the tolerance.
   void solve();
 
-  /// Of the last solve().
+  /// Return the iterations of the last solve().
   unsigned int iterations() const;
 
   const LinearMethod &method;

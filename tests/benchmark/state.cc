@@ -29,7 +29,7 @@ struct Size
   unsigned int cells, subdomains;
 };
 
-/// Of one side; each repeat.
+/// Times of one side, for each repetition.
 struct Times
 {
   std::vector<Seconds> factor, solve;
@@ -85,7 +85,7 @@ public:
       linear.push_back(std::make_unique<LinearSolver>(*bonded, method));
   }
 
-  /// Of the state, then of the linear methods.
+  /// Return the times of the state, then of the linear methods.
   std::vector<Times> run(const unsigned int repeats)
   {
     std::vector<Times> times(1 + linear.size());

@@ -29,7 +29,7 @@ inline Seconds operator*(double factor, const Seconds &a)
   return {factor * a.cpu, factor * a.wall};
 }
 
-/// What @p work takes.
+/// Return the time of @p work.
 template <typename Work>
 Seconds measure(const Work &work)
 {

@@ -37,8 +37,8 @@ public:
   /// F-mults of the last solve().
   unsigned long f_mults() const { return work.f_mults; }
 
-  /// What a state consists of, as measured one by one; @p whole is the
-  /// time of factorize() and solve() together.
+  /// Return the times of the stages of a state, measured one by one. @p whole is the time of
+  /// factorize() and solve() together.
   std::vector<Stage> stages(const Seconds &whole);
 
 private:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hold the project to its rules: lint.py CHECK [--root DIR] [--program SNUG].
+"""Hold the project to its rules: lint.py CHECK [--root DIR] [--program SNUG] [--base COMMIT].
 
 Prints file:line: message for every finding; exit status 1 if there is one."""
 
@@ -7,6 +7,7 @@ import argparse
 import pathlib
 import sys
 
+import commits
 import formatting
 import layout
 import links
@@ -17,15 +18,16 @@ import size
 import words
 
 CHECKS = {
-    "modules": lambda root, snug: modules.check(root),
-    "format": lambda root, snug: formatting.check(root),
-    "layout": lambda root, snug: layout.check(root),
-    "size": lambda root, snug: size.check(root),
-    "words": lambda root, snug: words.check(root),
-    "links": lambda root, snug: links.check(root),
-    "options": lambda root, snug: options.check(root),
-    "scenes": program.check_scenes,
-    "parameters": program.check_parameters,
+    "modules": lambda root, given: modules.check(root),
+    "format": lambda root, given: formatting.check(root),
+    "layout": lambda root, given: layout.check(root),
+    "size": lambda root, given: size.check(root),
+    "words": lambda root, given: words.check(root),
+    "commits": lambda root, given: commits.check(root, given.base),
+    "links": lambda root, given: links.check(root),
+    "options": lambda root, given: options.check(root),
+    "scenes": lambda root, given: program.check_scenes(root, given.program),
+    "parameters": lambda root, given: program.check_parameters(root, given.program),
 }
 
 
@@ -35,8 +37,10 @@ def main():
     parser.add_argument("check", choices=CHECKS)
     parser.add_argument("--root", type=pathlib.Path, default=here.parents[2])
     parser.add_argument("--program", default="build/snug")
+    parser.add_argument("--base", default="",
+                        help="check the titles of the commits since this one, not of HEAD alone")
     given = parser.parse_args()
-    messages = CHECKS[given.check](given.root.resolve(), given.program)
+    messages = CHECKS[given.check](given.root.resolve(), given)
     print("\n".join(messages) or f"{given.check}: nothing to mend")
     return 1 if messages else 0
 

@@ -4,9 +4,11 @@
 import json
 import pathlib
 import stat
+import subprocess
 import tempfile
 import unittest
 
+import commits
 import compile as compiling
 import formatting
 import layout
@@ -191,6 +193,49 @@ class Words(Tree):
     def test_a_mark_is_found(self):
         self.write("source/a.cc", "// Methodology\n// TO" "DO: later\n")
         self.expect(words.check(self.root), "source/a.cc:2: ")
+
+    def test_a_comment_that_begins_with_a_fragment_is_found(self):
+        self.write("include/snug/mesh/a.h", "/// Return the area.\n/// Of one face.\nint a;\n"
+                   "/// Of all faces.\nint b;\nint c; ///< of a face\n/**\n * What c is.\n"
+                   " * Of c.\n */\n")
+        self.expect(words.check(self.root), "include/snug/mesh/a.h:4: a doc comment begins with"
+                    " 'Of'", "include/snug/mesh/a.h:8: ")
+
+    def test_a_plural_behind_1_is_found(self):
+        self.write("doc/a.md", "1 rank, 11 ranks, 0.1 faces, Q1 cells\non 1 " "ranks\n")
+        self.expect(words.check(self.root), "doc/a.md:2: '1 rank")
+
+    def test_a_long_cell_is_found(self):
+        self.write("doc/a.md", "| a | b |\n|---|---|\n| a | " + "b" * 300 + " |\n"
+                   "| " + "a" * 301 + " | b |\n" + "c" * 400 + "\n")
+        self.expect(words.check(self.root), "doc/a.md:4: a cell of 301")
+
+
+class Commits(Tree):
+    GOOD = ("Add the quantity mass", "Reduce memory by half", "Embed pictures", "Pass options",
+            "Express forces by pressures")
+    BAD = ("Added mass", "Adding mass", "Adds mass", "The mass", "wip", "What tests say",
+           "Add mass; fix volume", "Add " + "m" * 69)
+
+    def commit(self, title):
+        git = ["git", "-C", str(self.root), "-c", "user.name=a", "-c", "user.email=a@b"]
+        subprocess.run([*git, "commit", "-q", "--allow-empty", "-m", title], check=True)
+
+    def test_only_imperatives_are_titles(self):
+        for title in self.GOOD:
+            self.expect(commits.complaints(title))
+        for title in self.BAD:
+            self.assertEqual(len(list(commits.complaints(title))), 1, title)
+
+    def test_the_last_title_or_all_since_a_base_are_checked(self):
+        self.expect(commits.check(self.root))
+        subprocess.run(["git", "init", "-q", str(self.root)], check=True)
+        for title in ("Begin", "Added mass", "Add volume"):
+            self.commit(title)
+        self.expect(commits.check(self.root))
+        self.expect(commits.check(self.root, "HEAD~2"), "commit ")
+        self.commit("More tests")
+        self.expect(commits.check(self.root), "commit ")
 
 
 class Links(Tree):

@@ -1,18 +1,59 @@
-"""No marks of unfinished work in our text."""
+"""No marks of unfinished work, and plain words: doc comments begin with a verb or a noun,
+nouns agree with the number 1, cells of tables are short."""
 
 import re
 
-from files import lines, place, text_files
+from files import CODE, lines, place, text_files
 
 # Split so that this file does not find itself.
 MARK = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
-TOP = ("CMakeLists.txt", "README.md", "CHANGELOG.md", "CITATION.cff")
+TOP = ("CMakeLists.txt", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff")
+FRAGMENT = re.compile(r"\s*(?:///|/\*\*|\*)<?\s*(Of|Those|That|What|Whether|None|As)\b")
+COMMENT = re.compile(r"\s*(?:///|\*|/\*\*.)")  # not a first line /** without text
+ONE_OF_MANY = re.compile(r"(?<![\w.,])1 (bodies|cells|evaluations|F-mults|faces|iterations|meshes|"
+                         r"nodes|processes|ranks|records|responses|subdomains|unknowns|variables)\b")
+MAX_CELL = 300
+
+
+def top_files(root):
+    return [root / name for name in TOP if (root / name).is_file()]
+
+
+def check_comments(root, path):
+    """Doc comments that begin with a fragment instead of a verb or a noun."""
+    inside = False
+    for number, line in lines(path):
+        first = FRAGMENT.match(line)
+        if first and not inside:
+            yield (f"{place(root, path, number)}: a doc comment begins with"
+                   f" '{first.group(1)}'; begin with a verb or a noun")
+        inside = bool(COMMENT.match(line))
+
+
+def check_cells(root, path):
+    """Cells of tables that are too long to read."""
+    for number, line in lines(path):
+        cells = line.replace(r"\|", " ").split("|")[1:-1] if line.startswith("|") else []
+        for length in (len(cell.strip()) for cell in cells):
+            if length > MAX_CELL:
+                yield (f"{place(root, path, number)}: a cell of {length} characters, more than"
+                       f" {MAX_CELL}; use a list below the table")
+
+
+def check_line(root, path, number, line):
+    if MARK.search(line):
+        yield f"{place(root, path, number)}: finish it or open an issue: {line.strip()}"
+    for noun in ONE_OF_MANY.findall(line):
+        yield f"{place(root, path, number)}: '1 {noun}': the noun must agree with its number"
 
 
 def check(root):
-    paths = list(text_files(root))
-    paths += [root / name for name in TOP if (root / name).is_file()]
-    return [f"{place(root, path, number)}: finish it or open an issue:"
-            f" {line.strip()}"
-            for path in paths
-            for number, line in lines(path) if MARK.search(line)]
+    messages = []
+    for path in [*text_files(root), *top_files(root)]:
+        for number, line in lines(path):
+            messages += check_line(root, path, number, line)
+        if path.suffix == ".md":
+            messages += check_cells(root, path)
+    for path in text_files(root, ("include", "source", "tests"), CODE):
+        messages += check_comments(root, path)
+    return messages

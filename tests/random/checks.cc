@@ -12,10 +12,10 @@
 
 namespace snug::test {
 namespace {
-/// Of forces, displacements, gaps and energies; states are solved to 1e-9.
+/// Tolerance of forces, displacements, gaps and energies. States are solved to 1e-9.
 const double agreement = 1e-6;
 
-/// What Snug says of a scene.
+/// Result of Snug for a scene.
 template <int dim>
 struct Answer
 {
@@ -92,7 +92,7 @@ answer_of(const scene::Scene &scene, const WholeBodies<dim> &whole, unsigned lon
   return answer;
 }
 
-/// Whether the message names a body that may move.
+/// Return whether the message names a body that may move.
 bool names_escape(const std::string &message, const scene::Scene &scene, const Verdict &verdict)
 {
   for (unsigned int b = 0; b < scene.bodies.size(); ++b)

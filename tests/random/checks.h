@@ -4,7 +4,7 @@
 #include <string>
 
 namespace snug::test {
-/// What became of a problem.
+/// Outcome of a problem.
 struct Outcome
 {
   enum Kind

@@ -4,7 +4,7 @@
 #include <random/linear_program.h>
 
 namespace snug::test {
-/// What A x = 0 leaves of x, by elimination with complete pivots.
+/// Solutions of A x = 0, by elimination with complete pivots.
 struct NullSpace
 {
   Matrix                    basis; ///< x of each column; unit entries where nothing is held

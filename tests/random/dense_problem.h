@@ -42,8 +42,7 @@ struct DenseProblem
   std::vector<DenseRow>     held, contact;
 };
 
-/// What rigid motions, which supports allow and contact does not resist, say
-/// about equilibrium.
+/// Solvability by the rigid motions that supports permit and contact does not resist.
 struct Verdict
 {
   enum Kind

@@ -9,7 +9,7 @@
 
 namespace snug::test {
 namespace {
-/// What a solution must meet, relative to its forces and gaps.
+/// Tolerance of a solution, relative to its forces and gaps.
 const double exact = 1e-10;
 } // namespace
 
@@ -321,7 +321,8 @@ void DenseOracle::recover(const Vector &z, DenseSolution &solution) const
     throw std::runtime_error("the dense solution is not in equilibrium");
 }
 
-/// What supports and loaded rows leave free, and whether other forces would do as well.
+/// Determine the motions that supports and loaded rows leave free, and whether the forces are
+/// unique.
 void DenseOracle::describe(DenseSolution &solution) const
 {
   const unsigned int        m = q.size(), k = N.n();

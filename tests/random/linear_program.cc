@@ -6,7 +6,7 @@
 
 namespace snug::test {
 namespace {
-/// What a column must pay to enter, and the least pivot.
+/// Minimum gain of a column that enters, and minimum pivot.
 const double pays = 1e-9, least_pivot = 1e-7;
 const double equal_ratios = 1e-10;
 
@@ -97,7 +97,7 @@ private:
     inverse.gauss_jordan();
   }
 
-  /// Of equal ratios the row of the largest pivot, for the sake of digits.
+  /// Return the leaving row; for equal ratios the row of the largest pivot, because of rounding.
   unsigned int leaving_row(unsigned int column) const
   {
     Vector x(k), direction(k);

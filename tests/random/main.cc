@@ -19,7 +19,7 @@ const char usage[] =
   "is there an equilibrium, what are forces and displacements. Or one, which is\n"
   "printed as a parameter file, or that of a file. The exit status is 1 if one is wrong.\n";
 
-/// What became of the problems of one kind.
+/// Outcomes of the problems of one kind.
 struct Tally
 {
   std::array<unsigned int, 6> counts{};
@@ -69,7 +69,7 @@ bool run_file(const std::string &file, bool prints)
   return outcome.kind == Outcome::wrong;
 }
 
-/// Whether one is wrong.
+/// Return whether the outcome of a problem is wrong.
 bool run(unsigned int first, unsigned int last, bool prints)
 {
   std::vector<Tally> tallies(kinds().size());

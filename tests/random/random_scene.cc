@@ -5,7 +5,7 @@
 
 namespace snug::test {
 namespace {
-/// What all scenes of one problem share.
+/// Data that all scenes of one problem share.
 struct Common
 {
   Draw         draw;

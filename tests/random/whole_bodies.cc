@@ -61,7 +61,7 @@ WholeBodies<dim>::WholeBodies(scene::Scene scene)
     }
   catch (const SolveError &)
     {
-      // What it thinks of equilibrium is not asked here; matrices and loads are made.
+      // Ignore the equilibrium error: matrices and loads are assembled already.
     }
   collect(state, *mesh, state.rows(x));
 }

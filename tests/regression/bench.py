@@ -42,14 +42,14 @@ def main(benchmarks, snug):
                                "--against", snug], text=True, check=False,
                               stdout=subprocess.PIPE)
         rows = list(csv.DictReader(done.stdout.splitlines()))
-        complaints = [f"column {column}" for column in columns
+        failure_reasons = [f"column {column}" for column in columns
                       if not all(row.get(column) and float(row[column]) > 0. for row in rows)]
         if len(rows) != 2 * n_cases:
-            complaints.append(f"{len(rows)} rows, not {2 * n_cases}")
+            failure_reasons.append(f"{len(rows)} rows, not {2 * n_cases}")
         if done.returncode != 0:
-            complaints.append(f"status {done.returncode}")
-        wrong += bool(complaints)
-        print(name, "wrong: " + ", ".join(complaints) if complaints else "right")
+            failure_reasons.append(f"status {done.returncode}")
+        wrong += bool(failure_reasons)
+        print(name, "wrong: " + ", ".join(failure_reasons) if failure_reasons else "right")
         if name == "ranks":
             wrong += not is_fitted(pathlib.Path(benchmarks).with_name("scaling.py"), done.stdout)
     done = subprocess.run([sys.executable, benchmarks, "/bin/false", "whole", "--quick"],

@@ -35,10 +35,10 @@ def main(snug, scenes):
             for setting in settings:
                 command += ["--set", setting]
             run = subprocess.run(command, capture_output=True, text=True, timeout=200)
-        stopped = [line for line in run.stdout.splitlines() if line.startswith("stopped: ")]
-        good = run.returncode == 0 and stopped and any(
-            stopped[0].startswith(f"stopped: {name} tolerance") for name in TOLERANCES)
-        print("ok" if good else "FAILED", scene, settings, *stopped, run.stderr.strip())
+        ended = [line for line in run.stdout.splitlines() if line.startswith("converged: ")]
+        good = run.returncode == 0 and ended and any(
+            ended[0].startswith(f"converged: {name} tolerance") for name in TOLERANCES)
+        print("ok" if good else "FAILED", scene, settings, *ended, run.stderr.strip())
         failures += not good
     return failures > 0
 

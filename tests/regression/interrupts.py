@@ -150,7 +150,7 @@ class Check:
         ranks = 3 if self.options.ranks == 1 else self.options.ranks - 1
         run = subprocess.run([*self.command(self.options.scene, output, ranks), "--restart"],
                              capture_output=True, text=True, timeout=SECONDS, check=False)
-        good = (run.returncode == 0 and "restart: replaying" in run.stdout and
+        good = (run.returncode == 0 and "restart: reusing" in run.stdout and
                 "another design" not in run.stdout and len(objectives(output)) > n_done)
         print(f"{'good' if good else 'WRONG'} restart on {ranks} ranks after {n_done} values")
         if not good:

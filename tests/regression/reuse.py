@@ -110,7 +110,7 @@ def check_restarts(checks):
     checks.folder = moved
     done = checks.interrupted(3, "--restart")
     checks.expect("a restart in a folder that was moved goes on",
-                  "replaying" in done.stdout and
+                  "reusing" in done.stdout and
                   checks.summary()["optimization"]["evaluations"] == 3, done)
     for start in moved.glob("output/warm-start.*"):
         start.write_bytes(start.read_bytes()[:-3])

@@ -144,7 +144,7 @@ def input_cases(body, slave, master):
         wrong("box beside the bodies", "Shape/Box size", "1, 1, 2",
               ["no node"], {**box, "Shape/Box corner": "90, 0, 0"}),
         wrong("all control points fixed", "Shape/Fixed", "border",
-              ["nothing is left"], shape),
+              ["no design variables"], shape),
         wrong("filter without a radius", "Shape/Filter radius", "0",
               others={**shape, "Shape/Basis": "node-wise",
                       "Shape/Control points": ""}),

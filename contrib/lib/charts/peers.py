@@ -4,9 +4,11 @@
 body, half of those along x on 0.16, growing twelvefold downwards and upwards; (b) is
 prm/point-contact.prm. The linear problem is one body of both blocks on the same mesh."""
 
+import drawing
+
 import known_answers
-from runs import on_processor, result, run
-from scenes import BEAM, cells
+from common import BEAM, by, cells, curves, legend_below, panels
+from runs import print_table, solve, write_csv
 
 # program: scene, unknowns, error of p0 in percent, seconds, those of its own linear solve;
 # all on the same meshes, on one core of one machine
@@ -35,7 +37,7 @@ def line(n):
 
 
 def bonded(scene, n):
-    """The two blocks as one body, whose cells grow from its middle."""
+    """Return the entries of the two blocks as one body, whose cells grow from its middle."""
     dim, fine, growth, _ = SCENES[scene]
     axis, flat = "xyz"[dim - 1], dim - 1
     rate = growth**(n / (n - 1))
@@ -64,14 +66,37 @@ def row(scene, program, unknowns, percent, seconds, linear):
 
 
 def measure(quick):
+    """Return the rows of the file."""
     rows = [row(scene, program, *numbers) for program, scene, *numbers in OTHERS]
     state = {"Accuracy/Estimate": "none"}
     for scene, (_, _, _, sizes) in SCENES.items():
         for n in (8,) if quick else sizes:
             file, entries, measured = contact(scene, n)
-            found = result(file, {**entries, **state})
+            found = solve(file, {**entries, **state})
             (_, p0, exact), _ = measured(found, None)
-            linear = on_processor(run(BEAM, {**bonded(scene, n), **state}), "total")
+            linear = solve(BEAM, {**bonded(scene, n), **state}).on_processor("total")
             rows.append(row(scene, "Snug", found.summary["mesh"]["dofs"],
-                            100 * abs(p0 / exact - 1), found.seconds, linear))
+                            100 * abs(p0 / exact - 1), found.on_processor("total"), linear))
     return rows
+
+
+def draw(output, quick):
+    rows = measure(quick)
+    write_csv(output / "precision-peers.csv", rows)
+    order = sorted(by(rows, "program"), key=lambda name: (name != "Snug", name))
+    figure, axes = panels(2, 5.)
+    for axis, (scene, group) in zip(axes, by(rows, "scene").items()):
+        curves(axis, group, "program", "ratio", "error of p0 [%]", order)
+        for one in group:
+            axis.annotate(f"{one['unknowns'] / 1000:.0f}k", (one["ratio"], one["error of p0 [%]"]),
+                          fontsize="x-small", textcoords="offset points",
+                          xytext=(4, -10 if "CalculiX" in one["program"] else 4))
+        axis.set_title({"a": "(a) line contact", "b": "(b) point contact in 3D"}[scene])
+        axis.set_xlabel("seconds of the contact problem over those of a linear one")
+        axis.set_ylabel("error of the largest pressure [%]")
+        axis.set_xticks((1, 2, 3, 5, 10), ("1", "2", "3", "5", "10"))
+        axis.minorticks_off()
+        axis.set_xlim(.6, 18.)
+    legend_below(figure, axes, 3, .13)
+    drawing.save(figure, output, "precision-peers.png")
+    print_table(rows)

@@ -1,15 +1,14 @@
-"""The charts of precision: files, pictures and tables of what precision.py and peers.py
-measure."""
+"""The charts of precision: files, pictures and tables of what precision.py measures."""
 
 import functools
 import math
 
-import drawing  # first: it chooses pictures without a display
+import drawing
 import matplotlib.pyplot as plt
 
 import peers
 import precision
-from gradient_charts import by, curves, legend_below, panels
+from common import by, curves, legend_below
 from runs import print_table, write_csv
 
 TITLES = {
@@ -23,7 +22,7 @@ LABELS = {"seconds": "CPU seconds", "tolerance": "relative tolerance"}
 
 
 def front(rows, x):
-    """What nothing else beats in both: in the order of x."""
+    """Return the rows that nothing else beats in both, in the order of x."""
     best, kept = math.inf, []
     for row in sorted(rows, key=lambda row: (row[x], row["error"])):
         if row["error"] < best:
@@ -33,7 +32,7 @@ def front(rows, x):
 
 
 def cheapest(rows, limit):
-    """The quickest row with an error below the limit, as have all finer ones of its
+    """Return the quickest row with an error below the limit, as have all finer ones of its
     series: an error may cross zero by luck."""
     able = []
     for group in by(rows, "series").values():
@@ -50,7 +49,7 @@ def cheapest(rows, limit):
 
 
 def errors(rows, all_runs):
-    """Rows of a table: all runs or the last one of each series."""
+    """Return the rows of a table: all runs or the last one of each series."""
     table = []
     for series, group in by(rows, "series").items():
         for mesh, run in list(by(group, "mesh").items())[0 if all_runs else -1:]:
@@ -86,12 +85,12 @@ def draw_panels(name, rows, table):
     for axis in axes[:, 0]:
         axis.set_ylabel("relative error")
     figure.suptitle(TITLES[name])
-    legend_below(figure, axes, max(3, 2 * len(quantities) - 3), .1)
+    legend_below(figure, axes.flat, max(3, 2 * len(quantities) - 3), .1)
     return figure
 
 
 def print_tables(rows, table, failures):
-    """Answers, and who reaches them; the finest runs; what was not solved."""
+    """Print the answers, and who reaches them; the finest runs; what was not solved."""
     groups = by(rows, "quantity")
     if "tolerance" in rows[0]:
         print_table(errors(rows, True))
@@ -116,28 +115,5 @@ def draw(name, output, quick):
     print_tables(rows, table, failures)
 
 
-def draw_peers(output, quick):
-    rows = peers.measure(quick)
-    write_csv(output / "precision-peers.csv", rows)
-    order = sorted(by(rows, "program"), key=lambda name: (name != "Snug", name))
-    figure, axes = panels(2, 5.)
-    for axis, (scene, group) in zip(axes[0], by(rows, "scene").items()):
-        curves(axis, group, "program", "ratio", "error of p0 [%]", order)
-        for row in group:
-            axis.annotate(f"{row['unknowns'] / 1000:.0f}k",
-                          (row["ratio"], row["error of p0 [%]"]), fontsize="x-small",
-                          xytext=(4, -10 if "CalculiX" in row["program"] else 4),
-                          textcoords="offset points")
-        axis.set_title({"a": "(a) line contact", "b": "(b) point contact in 3D"}[scene])
-        axis.set_xlabel("seconds of the contact problem over those of a linear one")
-        axis.set_ylabel("error of the largest pressure [%]")
-        axis.set_xticks((1, 2, 3, 5, 10), ("1", "2", "3", "5", "10"))
-        axis.minorticks_off()
-        axis.set_xlim(.6, 18.)
-    legend_below(figure, axes, 3, .13)
-    drawing.save(figure, output, "precision-peers.png")
-    print_table(rows)
-
-
 CHARTS = {**{name: functools.partial(draw, name) for name in precision.SCENES},
-          "peers": draw_peers}
+          "peers": peers.draw}

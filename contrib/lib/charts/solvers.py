@@ -1,10 +1,12 @@
-"""F-mults and seconds of a state: what the solvers' charts measure.
+"""The chart of solvers: F-mults and seconds of a state.
 
-A round block on another in 2D, two-blocks-2d, each of m x m square subdomains of r x r
-cells; rows are {"chart", "x", "solver", "F-mults", "seconds"}."""
+The scene is a round block on another in 2D, each of m x m square subdomains of r x r cells."""
 
-from runs import run
-from scenes import BLOCKS, cells, tolerance
+import drawing
+import matplotlib.pyplot as plt
+
+from common import BLOCKS, by, cells, curves, legend_below, tolerance
+from runs import print_table, solve, write_csv
 
 ACTIVE, SMALSE = {}, {"Solver/Method": "SMALSE-M"}
 LUMPED, NONE = ({"Solver/Preconditioner": name} for name in ("lumped", "none"))
@@ -26,19 +28,19 @@ def of_all(entry, value):
 
 
 def stretched(aspect):
-    """Blocks so many times their height, in as many cells along both edges."""
+    """Return blocks so many times their height, in as many cells along both edges."""
     return {**of_all("Box size", f"{aspect}, 1"),
             "Body upper/Curved faces": f"bottom: -(x/{aspect})^2/8", **mesh(4, 8)}
 
 
 def graded(ratio):
-    """Small cells at the contact, at its left end."""
+    """Return blocks with small cells at the contact, at its left end."""
     return {**mesh(4, 8), "Body upper/Box grading": f"{ratio}, {ratio}",
             "Body lower/Box grading": f"{ratio}, {1 / ratio}"}
 
 
 # Titles: values, the entries that make them, and solvers.
-CHARTS = {
+CHARTS_OF_STATES = {
     "tolerance": ([10.**-k for k in range(1, 13)],
                   lambda x: {**mesh(4, 8), **tolerance(x)}, PRECONDITIONERS),
     "H/h": ([4, 8, 16, 32], lambda x: mesh(4, x), PRECONDITIONERS),
@@ -56,34 +58,57 @@ CHARTS = {
 QUICK = {"tolerance": [1e-12, 1e-6], "H/h": [2, 16], "subdomains": [8, 32]}
 
 
-def row(chart, x, solver, f_mults, seconds):
-    return {"chart": chart, "x": x, "solver": solver, "F-mults": f_mults, "seconds": seconds}
+def cold(entries):
+    """Return F-mults of one state, and the seconds that depend on the solver."""
+    found = solve(BLOCKS, {"Task": "state", "Accuracy/Estimate": "none", **entries}).summary
+    return found["state"]["f_mults"], sum(
+        found["times"][part] for part in ("assembly", "factorization", "soft_modes", "solve"))
 
 
-def cold(chart, x, solver, entries):
-    """Of one state; parts of the run that do not depend on the solver do not count."""
-    found = run(BLOCKS, {"Task": "state", "Accuracy/Estimate": "none", **entries})
-    return row(chart, x, solver, found["state"]["f_mults"],
-               sum(found["times"][part]
-                   for part in ("assembly", "factorization", "soft_modes", "solve")))
-
-
-def warm(x, solver, entries, start):
-    """The mean of the states of a search after the first one, which start is as well."""
-    found = run(BLOCKS, {"Task": "optimize", "Accuracy/Estimate": "none",
-                         "Optimization/Maximum evaluations": 8, **entries})
-    after = found["optimization"]["evaluations"] - 1
-    return row("tolerance", x, f"{solver}, warm",
-               (found["work"]["f_mults"] - start["F-mults"]) / after,
-               found["times"]["solve"] / (after + 1))
+def warm(entries, first):
+    """Return the means of the states of a search after the first one, with its F-mults."""
+    found = solve(BLOCKS, {"Task": "optimize", "Accuracy/Estimate": "none",
+                           "Optimization/Maximum evaluations": 8, **entries}).summary
+    evaluations = found["optimization"]["evaluations"]
+    return ((found["work"]["f_mults"] - first) / (evaluations - 1),
+            found["times"]["solve"] / evaluations)
 
 
 def measure(quick):
+    """Return the rows of the file."""
     rows = []
-    for chart, (values, entries, solvers) in CHARTS.items():
+
+    def add(chart, x, solver, f_mults, seconds):
+        rows.append({"chart": chart, "x": x, "solver": solver, "F-mults": f_mults,
+                     "seconds": seconds})
+    for chart, (values, entries, solvers) in CHARTS_OF_STATES.items():
         for x in QUICK.get(chart, []) if quick else values:
             for solver, chosen in solvers.items():
-                rows.append(cold(chart, x, solver, {**entries(x), **chosen}))
+                given = {**entries(x), **chosen}
+                add(chart, x, solver, *cold(given))
                 if chart == "tolerance" and solver in ("active set", "SMALSE-M"):
-                    rows.append(warm(x, solver, {**entries(x), **chosen}, rows[-1]))
+                    add(chart, x, f"{solver}, warm", *warm(given, rows[-1]["F-mults"]))
     return rows
+
+
+def draw(output, quick):
+    rows = measure(quick)
+    write_csv(output / "solvers.csv", rows)
+    charts = by(rows, "chart")
+    print_table([{"chart": chart, "solver": solver,
+                  **{key: " / ".join(f"{row[key]:g}" for row in group)
+                     for key in ("x", "F-mults")}}
+                 for chart, of_chart in charts.items()
+                 for solver, group in by(of_chart, "solver").items()])
+    shown = [(chart, "F-mults") for chart in charts] + [("subdomains", "seconds")]
+    figure, axes = plt.subplots(2, 4, figsize=(17., 8.), layout="constrained")
+    order = sorted({row["solver"] for row in rows})
+    for axis, (chart, y) in zip(axes.flat, shown):
+        curves(axis, charts[chart], "solver", "x", y, order)
+        axis.set_xlabel(chart)
+        axis.set_ylabel(y)
+    legend_below(figure, axes.flat, 5, .07)
+    drawing.save(figure, output, "solvers.png")
+
+
+CHARTS = {"solvers": draw}

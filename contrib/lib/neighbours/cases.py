@@ -1,79 +1,63 @@
-"""Scenes made of numbers, their runs, and what is asked of their figures."""
+"""Cases, which are scenes made of numbers, and the figures that are asked of their results."""
 
 import collections
 import functools
+import inspect
 import math
-import pathlib
-import subprocess
-import tempfile
 
-from gallery_runs import Result, launch
+from runs import print_head, print_row, run_once, scene
 
-# setting: what tells it from its neighbours; text: of the parameter file; asked: the
-# figures of a Result; mesh: makes the bytes of mesh.msh beside it, None if it cannot.
-Case = collections.namedtuple("Case", "family setting text asked ranks mesh",
-                              defaults=[1, None])
+# setting: what tells a case from its neighbours; text: of the parameter file; asked: returns the
+# figures of a Result; mesh: returns the bytes of mesh.msh beside the file.
+Case = collections.namedtuple("Case", "family setting text asked ranks mesh", defaults=[1, None])
 # bound: on |found / right - 1|, or on |found| where right is 0.
 Figure = collections.namedtuple("Figure", "name found right bound")
-# status: of the program; -1: stopped, it took too long
-Run = collections.namedtuple("Run", "status message result")
-
-SECONDS = 300
 
 
 def error(figure):
+    """Return the error of a figure, relative unless the right value is zero."""
     return abs(figure.found / figure.right - 1 if figure.right else figure.found)
 
 
-def section(title, entries):
-    return (f"subsection {title}\n" +
-            "".join(f"  set {name} = {value}\n" for name, value in entries.items()) +
-            "end\n")
+def label(settings):
+    """Return 'subdomains 3, ranks 2' for settings by name."""
+    return ", ".join(f"{name} {value}" for name, value in settings.items())
 
 
-def scene(bodies, contact, decomposition=None, **entries):
-    """The text of a parameter file; entries have blanks for underscores."""
-    lines = [f"set {name.replace('_', ' ')} = {value}\n"
-             for name, value in {"Bodies": ", ".join(bodies), **entries}.items()]
-    return "".join(lines + [section(f"Body {name}", body)
-                            for name, body in bodies.items()] +
-                   [section("Contact", contact),
-                    section("Decomposition", decomposition or {})])
+def family(name, head):
+    """Return a decorator of functions that return (text, asked) or (text, asked, mesh) for some
+    settings: with it they return Cases of the family, also for so many ranks. What tells a case
+    from its neighbours are the settings of the head, the part, and all others that are given."""
+    def decorator(make):
+        signature = inspect.signature(make)
+
+        @functools.wraps(make)
+        def case(*numbers, ranks=1, **settings):
+            given = signature.bind(*numbers, **settings)
+            named = [key for key in given.arguments if "{" + key + "}" in head]
+            shown = {key: value for key, value in given.arguments.items()
+                     if key not in (*named, "settings")}
+            given.apply_defaults()
+            if "part" in signature.parameters:
+                shown = {"part": given.arguments["part"], **shown}
+            shown.update(given.arguments.get("settings", {}))
+            text, asked, *mesh = make(*numbers, **settings)
+            return Case(name, f"{head.format(**given.arguments)} " + label(
+                {**shown, "ranks": ranks}), text, asked, ranks, *mesh)
+        return case
+    return decorator
 
 
-@functools.lru_cache(maxsize=None)
-def run(text, ranks=1, mesh=None):
-    """What a scene ends with, and its line of error. mesh: the bytes of mesh.msh."""
-    with tempfile.TemporaryDirectory() as directory:
-        directory = pathlib.Path(directory)
-        (directory / "scene.prm").write_text(text)
-        if mesh:
-            (directory / "mesh.msh").write_bytes(mesh)
-        try:
-            process = launch(directory / "scene.prm", [], directory / "output", ranks,
-                             stderr=subprocess.PIPE, text=True, timeout=SECONDS)
-        except subprocess.TimeoutExpired:
-            return Run(-1, f"not ended after {SECONDS} s", None)
-        message = next((line for line in process.stderr.splitlines()
-                        if line.startswith("snug: ")), "")
-        result = None if process.returncode else Result(directory / "output")
-        return Run(process.returncode, message, result)
-
-
-def label(**settings):
-    """'subdomains 3, ranks 2' of those that are not None."""
-    return ", ".join(f"{name.replace('_', ' ')} {value}"
-                     for name, value in settings.items() if value is not None)
-
-
-def mean_pressure(result):
-    return (math.fsum(p["force"] for p in result.points) /
-            math.fsum(p["area"] for p in result.points))
+def contact_scene(bodies, contact, degree=1, method="auto", slave="finer", subdomains="auto",
+                  **entries):
+    """Return the text of bodies in contact with the settings that all families have."""
+    return scene(bodies, {**contact, "Method": method, "Slave": slave},
+                 {"Subdomains": subdomains}, Element_degree=degree, **entries)
 
 
 def torque(result, radius, bound=1e-9):
-    """About the origin, that of the pressure on round faces about it, over the sum of
-    all forces times their radius."""
+    """Return as a figure the moment of the pressure on round faces about their centre, the
+    origin, over the sum of all forces times the radius."""
     pair = result.state["pairs"][0]
     # moments have three components in 2D too
     x, f = ([*pair[name], 0.][:3] for name in ("centre", "force"))
@@ -84,5 +68,32 @@ def torque(result, radius, bound=1e-9):
 
 
 def warned(result, of="is nodal, but"):
+    """Return the figure that one warning has these words."""
     warnings = [text for text in result.summary["warnings"] if of in text]
     return Figure(f"warnings ({of})", float(len(warnings)), 1., 0.)
+
+
+def print_head_of_figures():
+    """Print the head of the table of which examine() prints the rows."""
+    print_head("scene", "setting", "figure", "found", "right", "error", "bound", "status",
+               "F-mults", "warnings")
+
+
+def examine(case):
+    """Print the rows of a case, and return what is wrong with it as messages."""
+    name = f"{case.family}, {case.setting}"
+    done = run_once(case.text, ranks=case.ranks, mesh=case.mesh and case.mesh())
+    if not done.result:
+        print_row(case.family, case.setting, done.message, *4 * "-", done.status, "-", "-")
+        return [f"{name}: status {done.status}, {done.message}"]
+    wrong = []
+    for figure in case.asked(done.result):
+        off = error(figure)
+        print_row(case.family, case.setting, figure.name, f"{figure.found:.6g}",
+                  f"{figure.right:.6g}", f"{off:.1e}", f"{figure.bound:.1e}", done.status,
+                  done.result.state["f_mults"], len(done.result.summary["warnings"]))
+        # not >: nan, where the right value is not known, is wrong
+        if not off <= figure.bound:
+            wrong.append(f"{name}: {figure.name} is {figure.found:.6g} instead of "
+                         f"{figure.right:.6g}")
+    return wrong

@@ -1,47 +1,55 @@
 """Rows about what touches: too little, too much, and in odd places."""
 
-from cases import Figure, scene
+from runs import scene
+
+from cases import Figure
 from outcomes import ALL, ONE, Refused, Row, Solved
-from scenes import blocks, energy, even, finish, force, hump, nothing_touches, sinks
+from scenes import blocks, energy, even, force, hump, nothing_touches, sinks
 
 BOTH = sinks((1, 1), (1000, 1000), (.3, .3))
 
 
 def held(gap, dim=2, **contact):
-    """Two blocks held at top and bottom, which overlap by -gap."""
+    """Return two blocks held at top and bottom, which overlap by -gap."""
     planes, last = ("left: x", "y") if dim == 2 else ("left: x, front: y", "z")
     return blocks({"Pressure": "", "Supports": f"{planes}, top: {last}"}, dim=dim,
                   contact={"Gap": gap, "Interference": "true", **contact})
 
 
 def squeezed(overlap):
-    """The pressure in held blocks that overlap."""
+    """Return the pressure in held blocks that overlap."""
     return overlap / sinks((1, 1), (1000, 1000), (.3, .3))
 
 
-def on_floor(body, obstacles="floor", pairs="block.bottom: floor", planes=None, contact=None,
-             dim=2, **entries):
-    """A block on rigid planes."""
-    cells = ", ".join(["4"] * dim)
-    text = scene({"block": {"Box cells": cells, "Young's modulus": 1000, **body}},
-                 {"Pairs": pairs, **(contact or {})}, Dimension=dim, Obstacles=obstacles,
-                 **entries)
-    return finish(text, {"Relative tolerance": 1e-9},
-                  [(f"Obstacle {name}", entries) for name, entries in (planes or {}).items()])
+def tight(bodies, pairs, contact=None, obstacles=None, dim=2, **entries):
+    """Return bodies in contact, solved well enough for dense algebra."""
+    return scene(bodies, {"Pairs": pairs, **(contact or {})}, obstacles=obstacles,
+                 sections={"Solver": {"Relative tolerance": 1e-9}}, Dimension=dim, **entries)
 
 
-def two_punches(times=1, **contact):
-    """Side by side on one block, whose nodes between them belong to both; so many times as
-    fine."""
+FLOOR = {"floor": {"Normal": "0, 1"}}
+TWICE = "block.bottom: floor, block.bottom: again"
+
+
+def on_planes(body, planes, pairs="block.bottom: floor", contact=None, dim=2):
+    """Return a block on rigid planes."""
+    return tight({"block": {"Box cells": ", ".join(["4"] * dim), "Young's modulus": 1000, **body}},
+                 pairs, contact, planes, dim)
+
+
+BELOW = "left.bottom: lower.top, right.bottom: lower.top"
+ABOVE = "lower.top: left.bottom, lower.top: right.bottom"
+
+
+def two_punches(times=1, pairs=BELOW, **contact):
+    """Return two punches side by side on one block, whose nodes between them belong to both; so
+    many times as fine."""
     punch = {"Box size": ".5, 1", "Box cells": f"{3 * times}, {3 * times}",
-             "Young's modulus": 1000}
-    return finish(scene(
-        {"left": {"Box corner": "0, 1", "Supports": "left: x", "Pressure": "top: 1", **punch},
-         "right": {"Box corner": ".5, 1", "Supports": "right: x", "Pressure": "top: 1", **punch},
-         "lower": {"Box cells": f"{8 * times}, {4 * times}", "Young's modulus": 1000,
-                   "Supports": "bottom: xy"}},
-        {"Pairs": "left.bottom: lower.top, right.bottom: lower.top", **contact},
-        Dimension=2), {"Relative tolerance": 1e-9})
+             "Young's modulus": 1000, "Pressure": "top: 1"}
+    return tight({"left": {**punch, "Box corner": "0, 1", "Supports": "left: x"},
+                  "right": {**punch, "Box corner": ".5, 1", "Supports": "right: x"},
+                  "lower": {"Box cells": f"{8 * times}, {4 * times}", "Young's modulus": 1000,
+                            "Supports": "bottom: xy"}}, pairs, contact)
 
 
 def floating(text):
@@ -124,32 +132,25 @@ FEW = [
         Refused(2, "overlap"), ONE),
 ]
 
-PLANES = {"floor": {"Normal": "0, 1"}, "again": {"Normal": "0, 1"},
-          "wall": {"Normal": "1, 0"}, "stop": {"Point": "1, 0", "Normal": "-1, 0"}}
 PRESSED = {"Pressure": "top: 1", "Supports": "left: x"}
+TILTED = {**FLOOR, "again": {"Normal": "1e-3, 1"}}
 UP, LO = {"Box corner": ".2, 1"}, {"Supports": "bottom: xy"}
 
 PLACES = [
-    Row("the same plane twice",
-        on_floor(PRESSED, "floor, again", "block.bottom: floor, block.bottom: again",
-                 {name: PLANES[name] for name in ("floor", "again")}),
+    Row("the same plane twice", on_planes(PRESSED, {**FLOOR, "again": FLOOR["floor"]}, TWICE),
         Refused(3, "two contact rows the same"), quick=True),
     Row("the same plane twice, one 1e-3 deeper",
-        on_floor(PRESSED, "floor, again", "block.bottom: floor, block.bottom: again",
-                 {"floor": PLANES["floor"], "again": {"Point": "0, -.001", "Normal": "0, 1"}}),
+        on_planes(PRESSED, {**FLOOR, "again": {"Point": "0, -.001", "Normal": "0, 1"}}, TWICE),
         Refused(3, "two contact rows the same")),
     Row("planes that differ by 1e-3 of a turn",
-        on_floor({**PRESSED, "Supports": "top: x"}, "floor, again",
-                 "block.bottom: floor, block.bottom: again",
-                 {"floor": PLANES["floor"], "again": {"Normal": "1e-3, 1"}}), dense=True),
-    Row("planes that a support makes the same",
-        on_floor(PRESSED, "floor, again", "block.bottom: floor, block.bottom: again",
-                 {"floor": PLANES["floor"], "again": {"Normal": "1e-3, 1"}}),
+        on_planes({**PRESSED, "Supports": "top: x"}, TILTED, TWICE), dense=True),
+    Row("planes that a support makes the same", on_planes(PRESSED, TILTED, TWICE),
         Refused(3, "two contact rows the same")),
     Row("between three planes, with the corners in two of them",
-        on_floor({"Pressure": "top: 1"}, "floor, wall, stop",
-                 "block.bottom: floor, block.left: wall, block.right: stop",
-                 {name: PLANES[name] for name in ("floor", "wall", "stop")}),
+        on_planes({"Pressure": "top: 1"},
+                  {**FLOOR, "wall": {"Normal": "1, 0"},
+                   "stop": {"Point": "1, 0", "Normal": "-1, 0"}},
+                  "block.bottom: floor, block.left: wall, block.right: stop"),
         dense=True, methods=ALL),
     Row("both sides slaves of each other",
         blocks({**UP, "Supports": "left: x"}, LO,
@@ -157,14 +158,9 @@ PLACES = [
                {"Relative tolerance": 1e-9}),
         Refused(2, "upper.bottom"), ONE),
     Row("a master node of two slaves", two_punches(Slave="first"), dense=True, quick=True),
-    Row("a slave face of two masters",
-        finish(two_punches(Slave="first").replace(
-            "left.bottom: lower.top, right.bottom: lower.top",
-            "lower.top: left.bottom, lower.top: right.bottom")), dense=True),
+    Row("a slave face of two masters", two_punches(pairs=ABOVE, Slave="first"), dense=True),
     Row("a slave face of two masters, mortar",
-        finish(two_punches(Slave="first", Method="mortar").replace(
-            "left.bottom: lower.top, right.bottom: lower.top",
-            "lower.top: left.bottom, lower.top: right.bottom")), dense=True),
+        two_punches(pairs=ABOVE, Slave="first", Method="mortar"), dense=True),
     Row("slave nodes beyond the edge of the master",
         blocks({"Box corner": "-.37, 1", "Box size": "2, 1", "Box cells": "8, 4",
                 "Supports": "top: x"}, LO, {"Slave": "first"}, {"Relative tolerance": 1e-9}),
@@ -182,29 +178,22 @@ PLACES = [
         blocks({"Box corner": ".4, 1", "Box size": ".1, .1", "Box cells": "2, 2",
                 "Supports": "left: x"}, LO, solver={"Relative tolerance": 1e-9}), dense=True),
     Row("stands on a corner",
-        on_floor({"Rotate": "z: 45", "Body force": "0 -1"}, planes={"floor": PLANES["floor"]},
-                 pairs="block.bottom: floor, block.left: floor"),
-        Solved(force(1)), dense=True),
+        on_planes({"Rotate": "z: 45", "Body force": "0 -1"}, FLOOR,
+                  "block.bottom: floor, block.left: floor"), Solved(force(1)), dense=True),
     Row("stands on a corner of one face",
-        on_floor({"Rotate": "z: 44.9", "Body force": "0 -1", "Supports": "top: x"},
-                 planes={"floor": PLANES["floor"]}),
+        on_planes({"Rotate": "z: 44.9", "Body force": "0 -1", "Supports": "top: x"}, FLOOR),
         dense=True),
     Row("stands on an edge, solid",
-        on_floor({"Rotate": "y: -30", "Body force": "0 0 -1", "Supports": "left: xy"}, dim=3,
-                 planes={"floor": {}}, contact={"Search distance": .01}), dense=True),
+        on_planes({"Rotate": "y: -30", "Body force": "0 0 -1", "Supports": "left: xy"},
+                  {"floor": {}}, contact={"Search distance": .01}, dim=3), dense=True),
     Row("lies on a line of a cylinder, solid",
-        finish(scene({"roll": {"Mesh": "cylinder", "Cells": "2, 2", "Rotate": "y: 90",
-                               "Shift": "0, 0, 1", "Young's modulus": 1000,
-                               "Body force": "0 0 -1"}},
-                     {"Pairs": "roll.outer: floor", "Search distance": .05}, Dimension=3,
-                     Obstacles="floor"), {"Relative tolerance": 1e-9}, [("Obstacle floor", {})]),
-        dense=True),
+        tight({"roll": {"Mesh": "cylinder", "Cells": "2, 2", "Rotate": "y: 90",
+                        "Shift": "0, 0, 1", "Young's modulus": 1000, "Body force": "0 0 -1"}},
+              "roll.outer: floor", {"Search distance": .05}, {"floor": {}}, 3), dense=True),
     Row("the rim of a tube on a sphere",
-        finish(scene({"tube": {"Mesh": "ring", "Cells": "16, 2, 2", "Young's modulus": 1000,
-                               "Pressure": "top: 1"}},
-                     {"Pairs": "tube.bottom: ball"}, Dimension=3, Obstacles="ball"),
-               {"Relative tolerance": 1e-9},
-               [("Obstacle ball", {"Shape": "sphere", "Radius": 1, "Point": "0, 0, -.87"})]),
+        tight({"tube": {"Mesh": "ring", "Cells": "16, 2, 2", "Young's modulus": 1000,
+                        "Pressure": "top: 1"}}, "tube.bottom: ball", dim=3,
+              obstacles={"ball": {"Shape": "sphere", "Radius": 1, "Point": "0, 0, -.87"}}),
         dense=True),
     Row("contact meets supports, which hold its ends",
         blocks({"Supports": "left: xy, right: x"}, {"Supports": "bottom: xy, left: xy"},
@@ -212,21 +201,17 @@ PLACES = [
     Row("supports hold all of the contact",
         blocks({"Supports": "bottom: xy"}, {"Supports": "top: xy"}), quick=True),
     Row("a stack of ten that tilted loads press",
-        finish(scene({f"b{i}": {"Box corner": f"0, {i}", "Box cells": "3, 3",
-                                "Young's modulus": 1000 + 100 * i,
-                                "Supports": "bottom: xy" if i == 0 else "left: x",
-                                **({"Force": "top: .05 -1"} if i == 9 else {})}
-                      for i in range(10)},
-                     {"Pairs": ", ".join(f"b{i}.bottom: b{i - 1}.top" for i in range(1, 10))},
-                     Dimension=2), {"Relative tolerance": 1e-9}), dense=True),
+        tight({f"b{i}": {"Box corner": f"0, {i}", "Box cells": "3, 3",
+                         "Young's modulus": 1000 + 100 * i,
+                         "Supports": "bottom: xy" if i == 0 else "left: x",
+                         **({"Force": "top: .05 -1"} if i == 9 else {})} for i in range(10)},
+              ", ".join(f"b{i}.bottom: b{i - 1}.top" for i in range(1, 10))), dense=True),
     Row("a long beam lifts off",
-        finish(scene({"beam": {"Box size": "40, 1", "Box cells": "320, 4",
-                               "Young's modulus": 1e5, "Density": .01 / 9.81,
-                               "Supports": "left: x", "Force": "right: 0 .1"}},
-                     {"Pairs": "beam.bottom: floor"}, Dimension=2, Model="plane stress",
-                     Obstacles="floor", Gravity="0 -9.81"),
-               {"Maximum F-mults": 4000}, [("Obstacle floor", {"Normal": "0, 1"})]),
-        Solved(force(.3))),
+        scene({"beam": {"Box size": "40, 1", "Box cells": "320, 4", "Young's modulus": 1e5,
+                        "Density": .01 / 9.81, "Supports": "left: x", "Force": "right: 0 .1"}},
+              {"Pairs": "beam.bottom: floor"}, obstacles=FLOOR,
+              sections={"Solver": {"Maximum F-mults": 4000}}, Dimension=2, Model="plane stress",
+              Gravity="0 -9.81"), Solved(force(.3))),
 ]
 
 ROWS = [*FREE, *FEW, *PLACES]

@@ -1,8 +1,9 @@
 """Rows about numbers: contrast, units, tolerances, slender bodies, subdomains."""
 
-from cases import scene
+from runs import scene
+
 from outcomes import ALL, ONE, SOLVERS, Refused, Row, Solved, SolvedOrRefused
-from scenes import blocks, even, finish, hump, sinks, untorn
+from scenes import blocks, even, hump, sinks, untorn
 
 POWERS = (-9, -6, -3, 3, 6, 9)
 ENDS = (-12, -6, 6, 12)
@@ -21,14 +22,14 @@ def between(power, **entries):
 
 
 def inside(power, region, solver=None, **body):
-    """Lower block of two materials, without strain across."""
+    """Return a lower block of two materials, without strain across."""
     return blocks({"Poisson's ratio": 0}, {"Materials": "core: core, body: rest",
                                            "Young's modulus": "", "Region formulas": region,
                                            **body},
                   Materials="core, rest", solver=solver,
-                  extra=[("Material core", {"Young's modulus": 10.**power * 1000,
-                                            "Poisson's ratio": 0}),
-                         ("Material rest", {"Young's modulus": 1000, "Poisson's ratio": 0})]
+                  sections={"Material core": {"Young's modulus": 10.**power * 1000,
+                                              "Poisson's ratio": 0},
+                            "Material rest": {"Young's modulus": 1000, "Poisson's ratio": 0}}
                   ).replace("  set Young's modulus = \n", "")
 
 
@@ -37,7 +38,7 @@ def stiff_hump(power):
 
 
 def layers(power):
-    """The upper half of the lower block is of another material."""
+    """Return the row of a block whose upper half is of another material."""
     return Row(f"contrast 1e{power} inside a body, layers", inside(power, "core: y - .5"),
                Solved(even(top=1e-3 + .5e-3 * (1 + 10.**-power))))
 
@@ -78,7 +79,7 @@ RATIOS = [
 
 
 def scaled(load, modulus, length=1.):
-    """The blocks in other units; displacements are as length load / modulus."""
+    """Return the blocks in other units; displacements are as length load / modulus."""
     size = {"Box size": f"{length!r}, {length!r}"}
     top = length * load / modulus * sinks((1, 1), (1, 1), (.3, .3))
     return (blocks({**size, "Box corner": f"0, {length!r}", "Young's modulus": modulus,
@@ -107,19 +108,19 @@ UNITS = [
 
 
 def wide(aspect, parts):
-    """Blocks of so many times their height."""
+    """Return blocks of so many times their height."""
     size = {"Box size": f"{aspect}, 1", "Box cells": f"{4 * min(aspect, 25)}, 4"}
     return blocks(size, size, parts=parts)
 
 
 def column(length, parts):
-    """On a floor of its width."""
+    """Return a column on a floor of its width."""
     return blocks({"Box size": f"1, {length}", "Box cells": f"1, {length}"},
                   {"Box cells": "1, 1"}, parts=parts)
 
 
 def lying(length, parts):
-    """A beam on another, both of so many times two squares."""
+    """Return a beam on another, both of so many times two squares."""
     size = {"Box size": f"{length}, 1", "Box cells": f"{length}, 2"}
     return blocks(size, size, parts=parts, solver={"Relative tolerance": 1e-8})
 
@@ -181,13 +182,13 @@ TEARING = [
                {"Box size": ".01, .01, 1", "Box cells": "1, 1, 20"}, parts=40, dim=3),
         Solved(even(bound=1e-4))),
     Row("a stiff block on a nearly incompressible one",
-        finish(scene({"punch": {"Box corner": "1, 1.5, 2.5", "Box cells": "5, 5, 5",
-                                "Young's modulus": 1000, "Poisson's ratio": 0,
-                                "Displacement": "top: x = 0, top: y = 0, top: z = -.7142857"},
-                      "base": {"Box size": "9, 4, 2.5", "Box cells": "24, 12, 6",
-                               "Young's modulus": 1, "Poisson's ratio": .499,
-                               "Formulation": "B-bar", "Supports": "bottom: xyz"}},
-                     {"Pairs": "punch.bottom: base.top", "Method": "mortar"}, Dimension=3)),
+        scene({"punch": {"Box corner": "1, 1.5, 2.5", "Box cells": "5, 5, 5",
+                         "Young's modulus": 1000, "Poisson's ratio": 0,
+                         "Displacement": "top: x = 0, top: y = 0, top: z = -.7142857"},
+               "base": {"Box size": "9, 4, 2.5", "Box cells": "24, 12, 6",
+                        "Young's modulus": 1, "Poisson's ratio": .499,
+                        "Formulation": "B-bar", "Supports": "bottom: xyz"}},
+              {"Pairs": "punch.bottom: base.top", "Method": "mortar"}, Dimension=3),
         methods=ONE),
 ]
 

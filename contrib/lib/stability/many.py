@@ -1,13 +1,11 @@
 """Many runs of snug in one start of a program, which takes longer than most of them."""
 
 import collections
-import os
 import pathlib
 import subprocess
 import tempfile
 
-from cases import Run
-from gallery_runs import ROOT, Result, environment
+from runs import Result, Run, built, environment, parallel
 
 # status: below zero that of a signal, or -1 if all ranks ended; lines: on standard error;
 # message: the last of them.
@@ -17,18 +15,17 @@ SECONDS, MEGABYTES = 60, 3000  # of one run on one rank
 
 
 def run_many(runs, ranks=1, cwd=None):
-    """The End of each list of arguments."""
-    program = os.environ.get("SNUG_MANY", str(ROOT / "build/tests/stability/stability.many"))
-    parallel = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
+    """Return the End of each list of arguments."""
+    program = [*parallel(ranks), built("SNUG_MANY", "tests/stability/stability.many"),
+               str(SECONDS), str(MEGABYTES)]
     ends = []
     while len(ends) < len(runs):
         left = runs[len(ends):]
         try:
             said = subprocess.run(
-                [*parallel, program, str(SECONDS), str(MEGABYTES)], check=False, text=True,
-                input="".join("\t".join(one) + "\n" for one in left), env=environment(),
-                cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, errors="replace",
-                timeout=10 * SECONDS + SECONDS * len(left)).stdout
+                program, input="".join("\t".join(one) + "\n" for one in left), text=True, cwd=cwd,
+                env=environment(), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                errors="replace", timeout=SECONDS * (10 + len(left)), check=False).stdout
         except subprocess.TimeoutExpired as stopped:
             said = (stopped.stdout or b"").decode(errors="replace")
         for line in said.splitlines():
@@ -40,7 +37,7 @@ def run_many(runs, ranks=1, cwd=None):
 
 
 def solve_many(jobs, ranks):
-    """The Run of each (text, bytes of mesh.msh or None)."""
+    """Return the Run of each (text, bytes of mesh.msh or None)."""
     with tempfile.TemporaryDirectory() as directory:
         places = [pathlib.Path(directory, str(i)) for i in range(len(jobs))]
         for place, (text, mesh) in zip(places, jobs):
@@ -50,6 +47,5 @@ def solve_many(jobs, ranks):
                 (place / "mesh.msh").write_bytes(mesh)
         ends = run_many([[str(place / "scene.prm"), f"--output={place / 'output'}"]
                          for place in places], ranks)
-        return [Run(end.status, end.message,
-                    None if end.status else Result(place / "output"))
+        return [Run(end.status, end.message, None if end.status else Result(place / "output"))
                 for place, end in zip(places, ends)]

@@ -6,7 +6,8 @@ import random
 import re
 import tempfile
 
-from gallery_runs import ROOT
+from runs import ROOT, changed
+
 from many import run_many
 
 # Read and checked only: they take long to solve.
@@ -27,7 +28,7 @@ NUMBER = re.compile(r"(?<![\w.])\d+\.?\d*(?:[eE][-+]?\d+)?")
 
 
 def another_number(draw, name, text):
-    """Close to it, or far; of counts few more, or too many for any machine."""
+    """Return a number that is close or far; of counts few more, or too many for any machine."""
     value = float(text)
     if COUNTS.search(name):
         return str(draw.choice((0, 1, 2, int(value) + 1, 10**9, 10**18, 2.5, -3)))
@@ -36,7 +37,7 @@ def another_number(draw, name, text):
 
 
 def of_value(draw, lines, i):
-    """Another value of an entry: hostile, that of another entry, or one number of it."""
+    """Give an entry a hostile value, that of another entry, or change one number of it."""
     match = ENTRY.match(lines[i])
     if not match:
         return of_line(draw, lines, i)
@@ -60,7 +61,7 @@ def of_value(draw, lines, i):
 
 
 def of_line(draw, lines, i):
-    """Left out, twice, somewhere else, or cut off."""
+    """Leave a line out, repeat it, move it, or cut it off."""
     way = draw.randrange(5)
     if way == 0:
         del lines[i]
@@ -76,7 +77,7 @@ def of_line(draw, lines, i):
 
 
 def of_text(draw, lines, i):
-    """A character or a word is another."""
+    """Change a character or a word."""
     line, way = lines[i], draw.randrange(4)
     at = draw.randrange(len(line) + 1)
     if way == 0:
@@ -97,7 +98,7 @@ def of_text(draw, lines, i):
 
 
 def mutated(draw, text):
-    """One to three faults."""
+    """Return a text with one to three faults."""
     lines = text.splitlines()
     for _ in range(draw.choice((1, 1, 1, 2, 3))):
         places = [i for i, line in enumerate(lines) if line.strip() and line.strip()[0] != "#"]
@@ -114,14 +115,12 @@ def original_of(number):
 
 
 def text(number):
-    """The file of a number; meshes are where they are."""
-    original = original_of(number)
-    found = re.sub(r"(Mesh file\s*=\s*)", rf"\1{original.parent}/", original.read_text())
-    return mutated(random.Random(number), found)
+    """Return the file of a number, which finds its meshes in any directory."""
+    return mutated(random.Random(number), changed(original_of(number), {}))
 
 
 def make(number, directory):
-    """Write the file of a number; the arguments of its run."""
+    """Write the file of a number, and return the arguments of its run."""
     path = directory / f"mutated-{number}.prm"
     path.write_text(text(number))
     return [str(path), f"--output={directory / 'output'}",
@@ -132,7 +131,7 @@ def make(number, directory):
 
 
 def fault(end):
-    """What is wrong with how a run ended, or nothing."""
+    """Return what is wrong with how a run ended, or nothing."""
     if end.status == 0:
         return "" if end.lines == 0 else f"exit 0, but says: {end.message}"
     if end.status < 0:
@@ -143,13 +142,10 @@ def fault(end):
 
 
 def examine(numbers):
-    """{exit status: files}, {number: fault} and the seconds of CPU time of all together."""
-    statuses, faults = collections.Counter(), {}
+    """Return {exit status: files}, the faults and the CPU seconds of all files together."""
     with tempfile.TemporaryDirectory() as directory:
         ends = run_many([make(number, pathlib.Path(directory)) for number in numbers])
-    for number, end in zip(numbers, ends):
-        statuses[end.status] += 1
-        wrong = fault(end)
-        if wrong:
-            faults[f"mutated file {number}"] = f"{wrong} ({end.seconds:.1f} s)"
-    return statuses, faults, sum(end.seconds for end in ends)
+    faults = [f"mutated file {number}: {fault(end)} ({end.seconds:.1f} s)"
+              for number, end in zip(numbers, ends) if fault(end)]
+    return (collections.Counter(end.status for end in ends), faults,
+            sum(end.seconds for end in ends))

@@ -2,19 +2,18 @@
 
 import collections
 import math
-import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import time
 
-from cases import error, section
-from gallery_runs import ROOT, environment
+from runs import built, execute, section
+
+from cases import error
 from many import solve_many
 
-SNUG_RANDOM = os.environ.get("SNUG_RANDOM", str(ROOT / "build/tests/random/random.problems"))
+SNUG_RANDOM = built("SNUG_RANDOM", "tests/random/random.problems")
 
 # asked: the figures of a Result that are known; where none is, energies on all numbers of
 # ranks are compared.
@@ -48,6 +47,7 @@ Outcome = collections.namedtuple("Outcome", "text certificate f_mults energy",
 
 
 def expected(row):
+    """Return the expected end of a row in words."""
     if isinstance(row.end, Refused):
         return f"exit {row.end.status}: {row.end.words}"
     if isinstance(row.end, SolvedOrRefused):
@@ -56,14 +56,17 @@ def expected(row):
 
 
 def of_method(row, method):
+    """Return the text of a row with the entries of a method."""
     return row.text + section("Solver", METHODS[method])
 
 
 def states_of(result):
+    """Return the states of all load cases."""
     return [case["state"] for case in result.summary.get("load_cases", [])] or [result.state]
 
 
 def refused(end, status, message):
+    """Return the Outcome of a run that must be refused."""
     if status == end.status and end.words in message:
         return Outcome("refused")
     said = "solved" if status == 0 else f"exit {status}, {message or 'no line'}"
@@ -71,8 +74,8 @@ def refused(end, status, message):
 
 
 def outcome(row, run):
-    """Of one run; its text begins with "fails" if it is not as expected."""
-    status, message, result = run
+    """Return the Outcome of a run; its text begins with "fails" if it is not as expected."""
+    status, message, result, *_ = run
     if isinstance(row.end, Refused) or isinstance(row.end, SolvedOrRefused) and not result:
         return refused(row.end, status, message)
     if not result:
@@ -87,18 +90,18 @@ def outcome(row, run):
 
 
 def unlike_dense(text):
-    """What tests/random says of the scene, where it is not what dense algebra finds."""
+    """Return what tests/random says of a scene, where it is not what dense algebra finds."""
     with tempfile.TemporaryDirectory() as directory:
         path = pathlib.Path(directory) / "scene.prm"
         path.write_text(text)
-        said = subprocess.run([SNUG_RANDOM, str(path)], env=environment(), text=True, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT).stdout
+        _, said, errors, *_ = execute([SNUG_RANDOM, str(path)])
+        said += errors
     match = re.search(r"scene\.prm: (.*); errors", said)
     return [] if match and not match[1] else [match[1] if match else said.strip()]
 
 
 def verdict(row, method, ranks, found):
-    """The first outcome that is not as expected, or what all are."""
+    """Return the first outcome that is not as expected, or what all are."""
     for n, one in zip(ranks, found):
         if one.text.startswith("fails"):
             return one.text + (f" ({n} ranks)" if n > 1 else "")
@@ -111,15 +114,15 @@ def verdict(row, method, ranks, found):
 
 
 def timed(what, act):
-    """The result of act(); how long it takes, on standard error."""
+    """Return the result of act(), and print on standard error how long it takes."""
     start = time.monotonic()
     result = act()
     print(f"{what}: {time.monotonic() - start:.0f} s", file=sys.stderr)
     return result
 
 
-def examine(rows, ranks):
-    """(row, method, outcomes on each number of ranks, verdict) of all."""
+def examine_rows(rows, ranks):
+    """Yield (row, method, outcomes on each number of ranks, verdict) of all rows."""
     pairs = [(row, method) for row in rows for method in row.methods]
     jobs = [(of_method(row, method), row.mesh and row.mesh()) for row, method in pairs]
     of_ranks = [timed(f"{n} ranks", lambda n=n: solve_many(jobs, n)) for n in ranks]

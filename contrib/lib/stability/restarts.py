@@ -9,17 +9,17 @@ import subprocess
 import tempfile
 import time
 
-from gallery_runs import ROOT, command, environment
+from runs import ROOT, SECONDS, command, environment
 
 # What is killed: pairs of a scene and entries.
 SEARCHES = [("tests/scenes/hertz-3d-small.prm", []),
             ("tests/scenes/repaired-2d.prm", []),
             ("tests/scenes/load-cases-2d.prm", ["Optimization/Maximum evaluations=12"])]
 KILLS = 3  # of one search before it may end
-SECONDS = 300
 
 
 def descendants(process):
+    """Yield the numbers of a process and of all that it started."""
     yield process
     try:
         for child in pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split():
@@ -29,13 +29,14 @@ def descendants(process):
 
 
 def start(scene, entries, output, ranks, restart):
+    """Return the process of a search that begins."""
     return subprocess.Popen(command(ROOT / scene, entries, output, ranks) +
                             (["--restart"] if restart else []), env=environment(),
                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
 def kill(process):
-    """The ranks too: without their launcher they would go on and write."""
+    """Kill a process and its ranks: without their launcher these would go on and write."""
     for one in list(descendants(process.pid)):
         try:
             os.kill(one, signal.SIGKILL)
@@ -45,14 +46,14 @@ def kill(process):
 
 
 def numbers(output):
-    """Designs and values of all evaluations, and the result; times may differ."""
+    """Return designs and values of all evaluations, and the result; times may differ."""
     lines = [line for line in (output / "journal.txt").read_text().splitlines()
              if not line.startswith("notes")]
     return lines, json.loads((output / "summary.json").read_text())["optimization"]
 
 
 def one_search(draw, scene, entries, ranks, kills):
-    """How often it was killed before its end, and what is wrong with that, if anything."""
+    """Return how often a search was killed before its end, and what is wrong, if anything."""
     with tempfile.TemporaryDirectory() as directory:
         whole, output = pathlib.Path(directory, "whole"), pathlib.Path(directory, "killed")
         begin = time.monotonic()
@@ -77,12 +78,12 @@ def one_search(draw, scene, entries, ranks, kills):
 
 
 def examine(ranks, kills):
-    """Kill so many times on so many ranks; kills and {search: fault}."""
-    draw, done, faults, number = random.Random(ranks), 0, {}, 0
+    """Kill so many times on so many ranks; return the kills and the faults."""
+    draw, done, faults, number = random.Random(ranks), 0, [], 0
     while done < kills:
         scene, entries = SEARCHES[number % len(SEARCHES)]
-        killed, fault = one_search(draw, scene, entries, ranks, min(KILLS, kills - done))
-        done, number = done + killed, number + 1
+        times, fault = one_search(draw, scene, entries, ranks, min(KILLS, kills - done))
+        done, number = done + times, number + 1
         if fault:
-            faults[f"search {number}, {scene}, {ranks} ranks, killed {killed} times"] = fault
+            faults.append(f"search {number}, {scene}, {ranks} ranks, killed {times} times: {fault}")
     return done, faults

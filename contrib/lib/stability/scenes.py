@@ -2,33 +2,30 @@
 
 import math
 
-from cases import Figure, run, scene, section
+from runs import run_once, scene, section
+
+from cases import Figure
 
 
-def finish(text, solver=None, extra=()):
-    """With entries of the solver and further sections, (title, entries)."""
-    return text + section("Solver", solver or {}) + "".join(section(*one) for one in extra)
-
-
-def blocks(upper=None, lower=None, contact=None, solver=None, parts="auto", dim=2, extra=(),
+def blocks(upper=None, lower=None, contact=None, solver=None, parts="auto", dim=2, sections=None,
            **entries):
-    """A unit cube pressed by 1 on another, in 2D squares in plane strain, both with planes of
-    symmetry at their left sides (and front); entries of bodies replace these."""
+    """Return a unit cube pressed by 1 on another, in 2D squares in plane strain, both with planes
+    of symmetry at their left sides (and front); entries of bodies replace these."""
     planes, last = {2: ("left: x", "y"), 3: ("left: x, front: y", "z")}[dim]
-    cells = ", ".join(["4"] * dim)
-    bodies = {"upper": {"Box corner": "0, 1" if dim == 2 else "0, 0, 1", "Box cells": cells,
-                        "Young's modulus": 1000, "Supports": planes, "Pressure": "top: 1",
-                        **(upper or {})},
-              "lower": {"Box cells": cells, "Young's modulus": 1000,
-                        "Supports": f"{planes}, bottom: {last}", **(lower or {})}}
-    text = scene(bodies, {"Pairs": "upper.bottom: lower.top", **(contact or {})},
-                 {"Subdomains": parts}, Dimension=dim, Responses="top", **entries)
-    return finish(text, solver, (*extra, ("Response top", {"Quantity": "displacement",
-                                                           "Face": "upper.top"})))
+    around = {"Box cells": ", ".join(["4"] * dim), "Young's modulus": 1000}
+    bodies = {"upper": {**around, "Box corner": "0, 1" if dim == 2 else "0, 0, 1",
+                        "Supports": planes, "Pressure": "top: 1", **(upper or {})},
+              "lower": {**around, "Supports": f"{planes}, bottom: {last}", **(lower or {})}}
+    return scene(bodies, {"Pairs": "upper.bottom: lower.top", **(contact or {})},
+                 {"Subdomains": parts}, sections={
+                     "Solver": solver or {}, **(sections or {}),
+                     "Response top": {"Quantity": "displacement", "Face": "upper.top"}},
+                 Dimension=dim, **{"Responses": "top", **entries})
 
 
 def even(pressure=1., top=None, bound=1e-5):
-    """The pressure is the same at all nodes; the top sinks by so much."""
+    """Return what is asked where the pressure is the same at all nodes and the top sinks by so
+    much."""
     def asked(result):
         figures = [Figure(f"{which.__name__} p", which(result.pressures()), pressure, bound)
                    for which in (min, max)]
@@ -39,14 +36,14 @@ def even(pressure=1., top=None, bound=1e-5):
 
 
 def sinks(heights, moduli, ratios, pressure=1., dim=2):
-    """How far the top of guided blocks sinks under a pressure, free to widen; in plane strain
-    in one direction only."""
+    """Return how far the top of guided blocks sinks under a pressure, free to widen; in plane
+    strain in one direction only."""
     return pressure * sum(h / E * (1 - nu**2 if dim == 2 else 1)
                           for h, E, nu in zip(heights, moduli, ratios))
 
 
 def force(value, bound=1e-5, component=1):
-    """Of all contacts on the slaves."""
+    """Return what is asked of the force of all contacts on the slaves."""
     return lambda result: [Figure("force", result.state["contact_force"][component], value,
                                   bound)]
 
@@ -60,9 +57,9 @@ def energy(value, bound=1e-5):
 
 
 def untorn(text, bound=1e-5, names=("energy", "max_pressure")):
-    """The figures of bodies in one piece each, with another factorization."""
+    """Return the figures of bodies in one piece each, with another factorization."""
     def asked(result):
-        whole = run(text + section("Decomposition", {"Subdomains": 2}) +
+        whole = run_once(text + section("Decomposition", {"Subdomains": 2}) +
                     section("Solver", {"Factorization": "MUMPS"})).result
         return [Figure(name, result.state[name], whole.state[name] if whole else math.nan, bound)
                 for name in names]
@@ -70,7 +67,7 @@ def untorn(text, bound=1e-5, names=("energy", "max_pressure")):
 
 
 def hump(radius, load, cells, **settings):
-    """A block with a round lower side on another, solved well enough for dense algebra."""
+    """Return a block with a round lower side on another, solved well enough for dense algebra."""
     across = f"{cells[0]}, {cells[1]}"
     lower = {"Box cells": across, "Supports": "bottom: xy", **settings.pop("lower", {})}
     upper = {"Box cells": across, "Curved faces": f"bottom: cylinder z {radius}",

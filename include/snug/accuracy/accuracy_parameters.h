@@ -20,10 +20,10 @@ enum class Estimate
 inline Names names(Estimate)
 {
   return {{"none"},
-          {"energy", "the error of the displacement in the energy norm, by local problems in the "
-                     "cells"},
-          {"responses", "besides that, the errors of the objective and of all responses, by one "
-                        "more linear solve for those that are no energies"}};
+          {"energy",
+           "error of the displacement in the energy norm, by local problems in the cells"},
+          {"responses", "also the errors of the objective and of all responses, by one more linear "
+                        "solve for responses that are no energies"}};
 }
 
 /// Entries of `subsection Accuracy`.

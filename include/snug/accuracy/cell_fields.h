@@ -10,7 +10,7 @@ namespace snug::accuracy {
 template <int dim>
 struct LoadedDisplacement
 {
-  typename mesh::BodyMesh<dim>::Field displacement; ///< at all local nodes
+  mesh::Field<dim> displacement; ///< at all local nodes
   /// pressures of the contact rows [force / length^2]
   std::vector<double> pressures;
   double              loads = 1.; ///< factor of the loads of the load case
@@ -24,7 +24,7 @@ template <int dim>
 class CellFields
 {
 public:
-  using Field  = typename mesh::BodyMesh<dim>::Field;
+  using Field  = mesh::Field<dim>;
   using Nodes  = std::vector<dealii::Tensor<1, dim>>; ///< per node of a cell
   using Shapes = std::vector<mesh::LagrangePoint<dim>>;
 

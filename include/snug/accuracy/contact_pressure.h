@@ -30,9 +30,9 @@ public:
 
   /// @p of_rows are in the order of the contact rows. @p positions are those of the local nodes.
   /// The solver must outlive this object. Collective.
-  ContactPressure(const state::StateSolver<dim>             &solver,
-                  const typename mesh::BodyMesh<dim>::Field &positions,
-                  const std::vector<double>                 &of_rows);
+  ContactPressure(const state::StateSolver<dim> &solver,
+                  const mesh::Field<dim>        &positions,
+                  const std::vector<double>     &of_rows);
   ~ContactPressure();
 
   /// Return whether a face lies on a side of a pair.

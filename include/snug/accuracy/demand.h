@@ -16,17 +16,18 @@ struct Measured
 /// Return "energy 1.23 +- 0.01 (0.8 %)", or the value alone if the error is unknown.
 std::string text_of(const std::string &name, const Measured &measured);
 
-/// A target of a response in one load case.
+/// A target of one response in one load case, with the values and errors on the meshes so far.
 struct Demand
 {
   std::string         name; ///< name of the response, with the load case if there are several
   unsigned int        load_case;
-  unsigned int        place; ///< index of the target in the entry
+  unsigned int        place; ///< index of the target in Accuracy/Target
   Target              target;
   bool                is_energy;
   bool                reads_pressure; ///< see Response::reads_pressure()
   double              factor = 1.;    ///< factor by which errors may exceed the target
-  std::vector<double> errors = {}; ///< errors on the last meshes that were refined for this demand
+  std::vector<double> errors =
+    {}; ///< errors on the meshes since the last refinement for the contact
   std::vector<double> values = {}; ///< values on all meshes
 
   double allowed(const Measured &measured) const { return factor * target.allowed(measured.value); }

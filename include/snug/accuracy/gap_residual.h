@@ -27,8 +27,7 @@ public:
   /// the work of the pressures between the rows:
   ///   sum_i force_i c_i . v - int p n . [v] dA  [force length],
   /// with the coefficients c_i of row i. Equal on all ranks. Collective.
-  double excess_work(const std::vector<state::ContactPoint>    &rows,
-                     const typename mesh::BodyMesh<dim>::Field &v) const;
+  double excess_work(const std::vector<state::ContactPoint> &rows, const mesh::Field<dim> &v) const;
 
   /// Return q dA and dA at all points of all ranks, per named pair. Collective.
   std::vector<response::PressureRows> pressures(const std::vector<double> &of_rows) const;

@@ -8,10 +8,10 @@ namespace snug::accuracy {
 /// sum of the squares of the changes from @p torn to @p continuous. The jump does not depend on
 /// the number of ranks. Collective.
 template <int dim>
-typename mesh::BodyMesh<dim>::Field jump(const state::StateSolver<dim> &solver,
-                                         const feti::PrimalVectors     &torn,
-                                         const feti::PrimalVectors     &continuous,
-                                         unsigned int                   j);
+mesh::Field<dim> jump(const state::StateSolver<dim> &solver,
+                      const feti::PrimalVectors     &torn,
+                      const feti::PrimalVectors     &continuous,
+                      unsigned int                   j);
 } // namespace snug::accuracy
 
 #endif

@@ -32,7 +32,7 @@ template <int dim>
 class LoadResidual
 {
 public:
-  using Field = typename mesh::BodyMesh<dim>::Field;
+  using Field = mesh::Field<dim>;
 
   /// The mesh must outlive this object. Collective.
   LoadResidual(const mesh::BodyMesh<dim>  &mesh,

@@ -29,7 +29,7 @@ template <int dim>
 class LocalErrors
 {
 public:
-  using Field    = typename mesh::BodyMesh<dim>::Field;
+  using Field    = mesh::Field<dim>;
   using Residual = elasticity::LocalResidual;
 
   /// Use the geometry and the loads of @p state. References must outlive this object. Collective.

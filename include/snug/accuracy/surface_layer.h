@@ -29,7 +29,7 @@ public:
 
 private:
   using Face  = typename mesh::BodyMesh<dim>::Face;
-  using Field = typename mesh::BodyMesh<dim>::Field;
+  using Field = mesh::Field<dim>;
 
   /// A point of a face in its cell, and the corresponding point of the true surface.
   struct Point

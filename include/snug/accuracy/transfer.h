@@ -12,10 +12,10 @@ namespace snug::accuracy {
  * @param positions positions of the nodes of the mesh of @p to. Collective.
  */
 template <int dim>
-qp::WarmStart transferred(const state::StateSolver<dim>             &from,
-                          const state::ContactState<dim>            &state,
-                          const state::StateSolver<dim>             &to,
-                          const typename mesh::BodyMesh<dim>::Field &positions);
+qp::WarmStart transferred(const state::StateSolver<dim>  &from,
+                          const state::ContactState<dim> &state,
+                          const state::StateSolver<dim>  &to,
+                          const mesh::Field<dim>         &positions);
 } // namespace snug::accuracy
 
 #endif

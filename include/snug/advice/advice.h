@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace snug::advice {
-/// What a scene could do without, or lacks. Nothing acts on it.
+/// A simplification that a scene allows, or a feature that it lacks. The program only prints it.
 struct Advice
 {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -16,11 +16,11 @@ struct Counts
   bool   has_layers   = true; ///< of cells, so that subdomains are boxes
 };
 
-/// Of @p ranks ranks. Cells of 'Refine where' are counted on samples. Nothing of the size of the
-/// mesh is made but its coarse cells.
+/// Return the counts of a run on @p ranks ranks. Cells of 'Refine where' are counted on samples.
+/// Only the coarse cells of the mesh are made.
 Counts count(const scene::Scene &scene, unsigned int ranks);
 
-/// What a run will take. Times are wall times [s] of this machine, if nothing else runs.
+/// Estimated cost of a run. Times are wall times [s] of this machine without other processes.
 struct Cost
 {
   Counts       counts;

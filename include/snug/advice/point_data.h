@@ -22,7 +22,8 @@ struct Isometry
   }
 };
 
-/// What a scene does at points of its bodies, and whether an isometry keeps it.
+/// This class holds the supports, loads and contact of a scene at points of its bodies, and checks
+/// whether an isometry keeps them.
 template <int dim>
 class PointData
 {
@@ -35,14 +36,14 @@ public:
   /// The held directions at a point as a projector.
   dealii::Tensor<2, dim> held(const Place<dim> &at) const;
 
-  /// Whether a body's face is in a pair.
+  /// Return whether a face of a body is in a contact pair.
   bool is_in_contact(const Place<dim> &at) const;
 
-  /// Whether all that acts at @p from acts at @p to turned by @p Q: supports, loads, contact,
-  /// material.
+  /// Return whether supports, loads, contact and material at @p from, turned by @p Q, are those at
+  /// @p to.
   bool agree(const Place<dim> &from, const Place<dim> &to, const dealii::Tensor<2, dim> &Q) const;
 
-  /// Whether the displacement prescribed is zero and nothing loads the point.
+  /// Return whether the prescribed displacement of the point is zero and no load acts there.
   bool is_free_of_loads(const Place<dim> &at) const;
 
 private:
@@ -57,7 +58,7 @@ private:
     bool   has_obstacle = false;
   };
 
-  /// Of one load case.
+  /// Supports and loads of one load case.
   struct Actions
   {
     Vector               prescribed, traction, body_force;

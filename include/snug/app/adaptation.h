@@ -5,13 +5,28 @@
 #include <snug/app/mesh_error.h>
 #include <snug/io/summary.h>
 
+#include <optional>
 #include <set>
 
 namespace snug::app {
+/// A mesh that was made for targets, and the analysis of a design on this mesh.
+template <int dim>
+struct AdaptedProblem
+{
+  std::unique_ptr<ShapeProblem<dim>>                    problem;
+  typename ShapeProblem<dim>::States                    states    = {};
+  std::vector<std::unique_ptr<response::Response<dim>>> responses = {}; ///< of the targets
+  std::vector<MeshError>          errors   = {}; ///< per load case; empty: not known
+  std::vector<accuracy::Measured> measured = {}; ///< of the demands
+};
+
 /**
- * Meshes of a scene at a design, each refined where the one before has errors, until the targets
- * are met: a problem of its own for each, solved from the contact forces of the one before and only
- * as exactly as its mesh deserves. Contact faces that meet are kept at one size.
+ * Adaptive refinement for a design. Each mesh is refined from the mesh before where its errors are
+ * large, until the targets are met. The analysis on a mesh starts from the contact forces on the
+ * mesh before, to a solver tolerance that follows the discretization error. Contact faces that lie
+ * opposite to each other are kept at one size. The states on which the marked cells depend change
+ * within the solver tolerance when the subdomains change. The subdomains therefore do not depend on
+ * the number of ranks, and neither do the meshes.
  */
 template <int dim>
 class Adaptation
@@ -21,100 +36,102 @@ public:
   using Design       = typename ShapeProblem<dim>::Design;
   using RefinedCells = std::set<dealii::CellId>;
 
-  /// Makes the first mesh, that of the scene with @p cells refined, and solves at @p design, or at
-  /// the start if there is none; @p context must outlive this. Collective.
-  /// @throws InputError, SolveError.
-  Adaptation(RunContext         &context,
-             const scene::Scene &scene,
-             const Design       &design = {},
-             const RefinedCells &cells  = {});
+  /// @p context and @p scene must outlive this object and the problems that it makes.
+  Adaptation(RunContext &context, const scene::Scene &scene) : context(context), scene(scene) {}
 
-  /// Refine until errors are at most @p factor times the targets.
-  /// @return why they are not; empty: they are. Collective. @throws SolveError.
+  /// Make the first mesh for @p design, or for the initial design if @p design is empty, and solve
+  /// there. The first mesh is the mesh of the scene with @p cells refined. Earlier meshes and the
+  /// summary are discarded. Collective. @throws InputError, SolveError.
+  void start(const Design &design = {}, const RefinedCells &cells = {});
+
+  /// Refine until errors are at most @p factor times the targets. Return why they are not; empty:
+  /// they are. Collective. @throws SolveError.
   std::string reach(double factor);
 
   /// Refine until errors are at most the targets, and verify() where `Verify` asks for it, or by
-  /// default where that is cheap. @return why not; empty: they are. Collective. @throws SolveError.
+  /// default where that is cheap. Return why the targets are not met; empty: they are. Collective.
+  /// @throws SolveError.
   std::string settle();
 
-  /// Compare with the mesh on which all cells are refined. @return why the targets are not met
+  /// Compare with the mesh on which all cells are refined. Return why the targets are not met
   /// there; empty: they are. Collective. @throws SolveError.
   std::string verify();
-  /// Those of the mesh on which verify() missed them; empty: it has not.
+  /// Return the refined cells of the mesh on which verify() missed the targets; empty if it did
+  /// not.
   const RefinedCells &finer_cells() const { return finer; }
 
-  /// Of the mesh the targets are met on, or else the last.
+  /// Return the problem of the mesh on which the targets are met, or else of the last mesh.
   const ShapeProblem<dim> &problem() const { return *solved->problem; }
   States                  &states() { return solved->states; }
-  /// Of these, in the responses of the targets; empty where a contact is too narrow.
+  /// Return the errors of states(), in the responses of the targets. Empty if a contact has
+  /// too few faces for an estimate.
   const std::vector<MeshError> &errors() const { return solved->errors; }
-
-  /// The value of the objective and its error; none (NaN) if it is no target. Collective.
-  accuracy::Measured objective();
-  /// Refined beyond the scene's own.
+  /// Return the cells that are refined beyond the scene's own refinement.
   const RefinedCells &cells() const { return refined; }
-  /// The scene with these; it is solved as exactly as the user's.
-  scene::Scene adapted_scene() const;
+
+  /// Return the value of the objective and its error, which is NaN if the objective is no target.
+  /// Collective.
+  accuracy::Measured objective() const;
+
+  /// Hand over the last mesh and its analysis. Its solver has the tolerance of the scene again. The
+  /// next call must be start().
+  AdaptedProblem<dim> release();
 
   io::Summary::Adaptation summary;
 
 private:
-  using Mesh = std::unique_ptr<mesh::BodyMesh<dim>>;
+  using Mesh  = std::unique_ptr<mesh::BodyMesh<dim>>;
+  using Stage = AdaptedProblem<dim>;
 
-  /// A mesh and what is solved on it.
-  struct Stage
-  {
-    scene::Scene                       scene; ///< with its cells and its tolerance
-    std::unique_ptr<ShapeProblem<dim>> problem                      = nullptr;
-    States                             states                       = {};
-    std::vector<std::unique_ptr<response::Response<dim>>> responses = {}; ///< of the targets
-    std::vector<MeshError>          errors   = {}; ///< per load case; empty: not trusted
-    std::vector<accuracy::Measured> measured = {}; ///< of the demands
-  };
+  RunContext                        &context;
+  const scene::Scene                &scene;
+  Design                             at; ///< the design; empty: the initial design
+  std::vector<accuracy::Demand>      demands;
+  std::unique_ptr<mesh::Forest<dim>> forest;
+  RefinedCells                       in_forest;   ///< cells refined in the forest
+  RefinedCells                       refined;     ///< of the last mesh
+  std::optional<RefinedCells>        first_cells; ///< refined in the first mesh of the scene
+  RefinedCells                       finer;       ///< see finer_cells()
+  double                             began;       ///< when the last mesh was begun [s]
+  unsigned int n_doubtful = 0; ///< number of last meshes on which contact or gaps were not resolved
+  std::unique_ptr<Stage> solved;
+  std::unique_ptr<Stage> finer_stage; ///< mesh of finer_cells()
+  bool finer_is_enough = true; ///< errors on the finer mesh of verify() are below the targets
+  std::vector<std::string> unresolved; ///< gaps that are not resolved, as log lines
 
-  RunContext                   &context;
-  scene::Scene                  scene;
-  Design                        at; ///< empty: the start
-  std::vector<accuracy::Demand> demands;
-  RefinedCells                  refined;        ///< of the last mesh
-  RefinedCells                  finer;          ///< see finer_cells()
-  double                        began;          ///< to make it [s]
-  unsigned int                  n_doubtful = 0; ///< meshes, the last ones, see add_doubtful()
-  std::unique_ptr<Stage>        solved;
-  std::unique_ptr<Stage>        finer_stage;            ///< that of finer_cells()
-  bool                          finer_is_enough = true; ///< by the error that verify() has found
-  std::vector<std::string>      unresolved;             ///< gaps, in the words of the log
-
-  static unsigned long   unknowns(const mesh::BodyMesh<dim> &mesh);
-  static double          tolerance(const Stage &stage);
-  Mesh                   matched_mesh(RefinedCells &cells);
-  std::unique_ptr<Stage> stage(Mesh mesh, const RefinedCells &cells, double tolerance);
-  void                   solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const;
-  void                   measure(Stage &stage) const;
-  void                   estimate(Stage &stage) const;
-  std::unique_ptr<Stage> solve_next(Mesh mesh, const RefinedCells &cells);
-  void                   report(const Stage &stage);
-  Design                 design(const Stage &stage) const;
-  bool                   is_at_rest() const;
-  bool                   reads_pressure() const;
-  bool                   is_met(unsigned int demand) const;
-  double                 least() const;
-  double                 next_tolerance() const;
-  bool                   is_rough() const;
-  bool                   fits(const mesh::BodyMesh<dim> &mesh) const;
-  void                   add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
-  bool                   add_doubtful(RefinedCells &cells);
-  double                 rough_part() const;
-  scene::Scene           scene_with(const RefinedCells &cells) const;
-  void                   resolve_data();
-  bool                   is_to_be_verified() const;
-  void                   add_marked(RefinedCells &cells) const;
-  void                   add_marked_beside(RefinedCells &cells);
-  std::string            failure();
-  std::string            noted();
-  std::string            go_on(RefinedCells &cells);
-  std::string            missed(const std::string &advice) const;
-  std::string            unbounded_at_edge();
+  static unsigned long     unknowns(const mesh::BodyMesh<dim> &mesh);
+  static double            tolerance(const Stage &stage);
+  const mesh::Forest<dim> &forest_with(const RefinedCells &cells);
+  Mesh                     matched_mesh(RefinedCells &cells);
+  Mesh                     first_mesh(const RefinedCells &cells);
+  std::unique_ptr<Stage>   stage(Mesh mesh, double tolerance) const;
+  void                     set_demands();
+  void                     solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const;
+  void                     measure(Stage &stage) const;
+  void                     estimate(Stage &stage) const;
+  std::unique_ptr<Stage>   solve_next(Mesh mesh);
+  void                     report(const Stage &stage);
+  Design                   design(const Stage &stage) const;
+  bool                     is_at_rest() const;
+  bool                     reads_pressure() const;
+  bool                     is_met(unsigned int demand) const;
+  double                   least() const;
+  double                   first_tolerance(const RefinedCells &cells) const;
+  double                   next_tolerance() const;
+  bool                     is_rough() const;
+  bool                     fits(const mesh::BodyMesh<dim> &mesh) const;
+  void        add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
+  bool        add_doubtful(RefinedCells &cells);
+  double      rough_part() const;
+  void        resolve_data();
+  bool        is_to_be_verified() const;
+  void        add_marked(RefinedCells &cells) const;
+  void        add_marked_beside(RefinedCells &cells);
+  std::string failure();
+  std::string noted();
+  std::string go_on(RefinedCells &cells);
+  std::string missed(const std::string &advice) const;
+  std::string unbounded_at_edge();
 };
 } // namespace snug::app
 

@@ -13,7 +13,7 @@ template <int dim>
 std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &scene,
                                                    const mesh::BodyMesh<dim> &mesh);
 
-/// What holds the bodies: supports, and the displacements that bodies and
+/// Return the conditions that hold the bodies: supports, and the displacements that bodies and
 /// load cases prescribe.
 template <int dim>
 std::vector<supports::Support<dim>> build_supports(const scene::Scene        &scene,

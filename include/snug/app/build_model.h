@@ -6,10 +6,10 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::app {
-/// What @p make makes of a scene; errors begin with its file, as all of
-/// the input do.
+/// Return the result of @p make. An InputError of @p make is thrown again with the file of the
+/// scene in front, as in all errors of the input.
 template <typename Make>
-auto made_of(const scene::Scene &scene, const Make &make)
+auto with_file_context(const scene::Scene &scene, const Make &make)
 {
   try
     {
@@ -21,17 +21,32 @@ auto made_of(const scene::Scene &scene, const Make &make)
     }
 }
 
-/// The meshes of all bodies. Collective. @throws InputError naming the
-/// file.
+/// Make the coarse cells of all bodies, refined as the scene says. Collective. @throws InputError
+/// naming the file.
+template <int dim>
+std::unique_ptr<mesh::Forest<dim>> build_forest(const scene::Scene &scene, MPI_Comm communicator);
+
+/// Make the mesh of a forest of the scene, which is torn if @p is_torn, see BodyMesh. Collective.
+/// @throws InputError naming the file.
+template <int dim>
+std::unique_ptr<mesh::BodyMesh<dim>>
+build_mesh(const scene::Scene &scene, const mesh::Forest<dim> &forest, bool is_torn = true);
+
+/// Make the mesh of the scene. Collective. @throws InputError naming the file.
 template <int dim>
 std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &scene, MPI_Comm communicator);
 
-/// The same, on the books of the run's setup.
+/// Make the mesh of the scene. The time counts as setup. Collective. @throws InputError naming the
+/// file.
 template <int dim>
 std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene::Scene &scene);
 
 /// Mesh entries of all bodies, in their order.
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene);
+
+/// Return the contact pairs of a scene. @throws InputError for names that do not exist.
+template <int dim>
+std::vector<contact::Pair> build_pairs(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
 /// The state problem of a scene: names of bodies and boundaries become
 /// indices. @throws InputError for names that do not exist.

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace snug::app {
-/// What the command line asks for.
+/// This struct holds the arguments of the command line.
 struct Options
 {
   std::string              file;
@@ -27,7 +27,7 @@ struct Options
 ///   has one it does not take or that is none of PETSc's, and if there is not exactly one file.
 Options parse(int argc, const char *const *argv);
 
-/// What --help prints.
+/// Return the text of --help.
 std::string usage();
 } // namespace snug::app
 

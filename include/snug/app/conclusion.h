@@ -7,25 +7,24 @@
 #include <vector>
 
 namespace snug::app {
-/// What is known of the result of a search from elsewhere.
-struct Known
+/// Results of a search that are known before it is reported.
+struct PriorResults
 {
-  bool is_paired = false; ///< contact is, at the last design
-  /// of the first design; none (NaN): what the search says, and no error
+  bool is_paired = false; ///< contact was searched at the last design
+  /// objective of the first design and its error; NaN: as the search found it, without an error
   double initial = std::numeric_limits<double>::quiet_NaN(), initial_error = initial;
-  std::vector<MeshError> errors; ///< of the last; empty: they are estimated
+  std::vector<MeshError> errors; ///< of the last design; empty: they are estimated
 };
 
 /**
- * Draw and summarize the design a search has found: its state, what its gain is worth where errors
- * are estimated, and what it is worth with contact paired anew, with warnings. Ends all states.
- * Collective. @throws SolveError if the design has no state.
+ * Draw and summarize the design that a search has found: its analysis, the gain of the objective
+ * with the estimated error, and the values after a new contact search, with warnings. Ends all
+ * states of @p search. Collective. @throws SolveError if the design has no state.
  */
 template <int dim>
-void conclude(Search<dim>                            &search,
-              const Books<dim>                       &books,
-              const optimization::OptimizationResult &result,
-              const Known                            &known = {});
+void report_result(Search<dim>                            &search,
+                   const optimization::OptimizationResult &result,
+                   const PriorResults                     &prior = {});
 } // namespace snug::app
 
 #endif

@@ -2,16 +2,35 @@
 #define snug_app_evaluator_h
 
 #include <snug/app/shape_problem.h>
-#include <snug/app/start_history.h>
+#include <snug/app/warm_start_extrapolation.h>
 #include <snug/optimization/design_problem.h>
 #include <snug/optimization/limit.h>
 
+#include <optional>
+
 namespace snug::app {
+/// The contact analyses of a design and the gradients there.
+template <int dim>
+struct Analysis
+{
+  typename ShapeProblem<dim>::Design design;
+  typename ShapeProblem<dim>::States states;
+  /// of the objective, then of the constraints; empty until Evaluator::analysis() computes them
+  sensitivity::Gradients<dim> gradients = {};
+};
+
+/// Objective and constraints without derivatives.
+struct DesignValues
+{
+  double              objective = 0.;
+  std::vector<double> constraints;    ///< c(x)
+  double              violation = 0.; ///< maximum over constraints, relative to the limit
+};
+
 /**
- * The optimization problem of a scene: its objective and its constraints
- * with their gradients as functions of the design. What it remembers of
- * the design before, where its solver starts, changes values within the
- * solver's tolerance only.
+ * The optimization problem of a scene: the objective and the constraints with their gradients as
+ * functions of the design. The solver starts from forces extrapolated from earlier designs, which
+ * changes values within the tolerance of the solver only.
  */
 template <int dim>
 class Evaluator
@@ -20,48 +39,54 @@ public:
   using Design = typename ShapeProblem<dim>::Design;
   using States = typename ShapeProblem<dim>::States;
 
-  /// Solves the first design if a limit or the scale of 'worst' is relative
-  /// to it. Collective.
-  explicit Evaluator(ShapeProblem<dim> &problem);
+  /// Read the constraints. @p paired is the design at which @p problem has searched contact. The
+  /// first design is solved, with a contact search of its own, if a limit or the scale of 'worst'
+  /// is relative to it. Collective.
+  Evaluator(ShapeProblem<dim> &problem, const Design &paired);
 
-  /// The values, without gradients. Collective. @throws TangledMesh, SolveError.
+  /// Return the values, without gradients. Collective. @throws TangledMesh, SolveError.
   optimization::Evaluation evaluate(const Design &design);
 
-  /// Adds the gradients to @p evaluation of @p design, which is solved again if it is not the last
-  /// one evaluated. Collective. @throws TangledMesh, SolveError.
+  /// Add the gradients to @p evaluation of @p design. The design is solved again unless it is the
+  /// last one that was evaluated. Collective. @throws TangledMesh, SolveError.
   void differentiate(const Design &design, optimization::Evaluation &evaluation);
 
-  /// The problem of an optimizer that begins at @p start; refers to this.
+  /// Return the analysis of @p design with gradients, which is computed unless @p design is the
+  /// last one evaluated. It is valid until the next evaluation or contact search, and the solver is
+  /// at the geometry of its states. Collective.
+  /// @throws TangledMesh, SolveError.
+  Analysis<dim> &analysis(const Design &design);
+
+  /// Return the analysis of the last design evaluated if that is @p design, else null, as during
+  /// the replay of a journal.
+  const Analysis<dim> *last(const Design &design) const
+  {
+    return current && current->design == design ? &*current : nullptr;
+  }
+
+  /// Return the problem of an optimizer that begins at @p start. The result refers to this object.
   optimization::DesignProblem design_problem(const Design &start);
 
-  /// Objective and constraints of @p states, without derivatives, and what
-  /// the largest violation is relative to its limit. Collective.
-  struct Values
-  {
-    double              objective = 0., violation = 0.;
-    std::vector<double> constraints; ///< c(x)
-  };
-  Values values(const States &states);
+  /// Return the objective and the constraints of @p states. Collective.
+  DesignValues values(const States &states) const;
 
-  /// Pair contact anew at @p design, which ends all states of before.
-  /// Collective.
+  /// Run a new contact search at @p design, which ends all states from before. Collective.
   void pair(const Design &design);
 
-  /// States of the first design, cold if they have to be solved; not to be
-  /// asked for after pair(). Collective.
+  /// Let the solver at designs near @p design start from forces of each load case, n_owned x 1.
+  void start_from(const Design &design, std::vector<qp::MultiVector> forces)
+  {
+    starts.add(design, std::move(forces));
+  }
+
+  /// Return the states of the first design, solved without start forces unless they are known. The
+  /// last contact search must have been at the first design. Collective.
   const States &first_states();
 
-  /// @name Of the last design evaluated; empty before
-  /// @{
-  Design design;
-  States states;
-  /// of the objective, then of the constraints; of none before differentiate()
-  sensitivity::Gradients<dim> gradients;
-  /// @}
-
-  /// Whether a design's contact forces and areas are used as linear functions of the variables, see
-  /// predicted(): if the objective or a constraint depends on the state by these alone, and
-  /// `Gradient/Method` is direct or auto, there with at most most_predicted variables.
+  /// Return whether the contact forces and areas of a design are used as linear functions of the
+  /// variables, see predicted(). They are if the objective or a constraint depends on the state by
+  /// these alone, and `Gradient/Method` is direct or auto, there with at most most_predicted
+  /// variables.
   bool                          is_predicted() const;
   static constexpr unsigned int most_predicted = 60;
 
@@ -73,20 +98,22 @@ private:
     double                                   target;
     optimization::Limit::Side                side;
 
-    /// c = sign (J - target), c = 0 or c <= 0.
+    /// Return the sign in c = sign (J - target), with c = 0 or c <= 0.
     double sign() const { return side == optimization::Limit::Side::at_least ? -1. : 1.; }
   };
 
   Constraint make_constraint(const std::string &name, const std::string &limit);
+  bool       is_relative_to_first() const;
 
   ShapeProblem<dim>                      &problem;
   std::vector<Constraint>                 constraints;
-  std::vector<sensitivity::Measured<dim>> measured; ///< of the constraints
-  StartHistory                            starts;
+  std::vector<sensitivity::Measured<dim>> measured; ///< responses of the constraints
+  WarmStartExtrapolation                  starts;
   States                                  of_first;
+  std::optional<Analysis<dim>>            current;
 
   bool                     measures_contact(const response::Response<dim> &response) const;
-  std::vector<double>      linearized_contact() const;
+  std::vector<double>      linearized_contact(const Analysis<dim> &at) const;
   optimization::Evaluation predicted(const optimization::Evaluation &at,
                                      const std::vector<double>      &dx) const;
 };

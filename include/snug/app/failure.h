@@ -15,7 +15,7 @@ int exit_status(const std::exception &error);
  * "snug: ..." on standard error.
  *
  * Errors that all ranks throw (those of the input, of the solver and of
- * everywhere()) are printed by rank 0 and returned. If the others do not
+ * throw_collectively()) are printed by rank 0 and returned. If the others do not
  * follow within @p patience seconds, they may be waiting for a message
  * that never comes: the rank prints its own error and MPI_Abort ends all.
  */

@@ -5,25 +5,25 @@
 #include <snug/app/shape_problem.h>
 
 namespace snug::app {
-/// What is estimated of the mesh's error in one state.
+/// Estimated discretization errors of one state.
 struct MeshError
 {
   accuracy::EnergyEstimate                                        energy;
   std::vector<std::pair<std::string, accuracy::ResponseEstimate>> responses; ///< by name
 };
 
-/// Of each load case, as far as `Accuracy/Estimate` asks for it; empty: not at all.
-/// Collective. @throws SolveError.
+/// Return the estimated errors of each load case that `Accuracy/Estimate` requests; empty: none
+/// requested. Collective. @throws SolveError.
 template <int dim>
 std::vector<MeshError> mesh_errors(const ShapeProblem<dim>                  &problem,
                                    const typename ShapeProblem<dim>::States &states);
 
-/// Of the objective of load cases combined with @p factors; none (NaN) where it is not estimated.
+/// Return the error of the objective of load cases combined with @p factors; NaN: not estimated.
 double objective_error(const scene::Scene           &scene,
                        const std::vector<double>    &factors,
                        const std::vector<MeshError> &errors);
 
-/// As lines of the log, relative to the values of @p states where these are not 0.
+/// Return @p errors as lines of the log, relative to the values of @p states where these are not 0.
 template <int dim>
 std::vector<std::string> described(const ShapeProblem<dim>                  &problem,
                                    const typename ShapeProblem<dim>::States &states,

@@ -7,10 +7,15 @@
 #include <snug/io/summary.h>
 
 namespace snug::app {
+/// Return the output directory of a scene and, if there are several load cases, their directories.
+std::vector<std::string> output_directories(const scene::Scene &scene);
+
+/// Remove the results of earlier runs from the output directories of a scene. Collective.
+void remove_earlier_results(const RunContext &context, const scene::Scene &scene);
+
 /**
- * What a run leaves in the output directory and says in the log beside its
- * states: pictures, summary, the final shape and warnings. It watches a
- * shape problem and changes nothing there.
+ * This class writes the results of a run to the output directory and to the log: pictures, the
+ * summary, the final shape and warnings. It reads a shape problem and does not change it.
  */
 template <int dim>
 class Results
@@ -21,7 +26,7 @@ public:
 
   explicit Results(const ShapeProblem<dim> &problem);
 
-  /// What follows is of this problem: the same scene on another mesh.
+  /// Set the problem of all following results: the same scene on another mesh.
   void watch(const ShapeProblem<dim> &other) { problem = &other; }
 
   /// Print what was read. Collective.
@@ -60,7 +65,7 @@ public:
                 const std::optional<Field>   &shape_gradient = {},
                 const std::vector<MeshError> &errors         = {});
 
-  /// Of the mesh, per load case, as estimated or given to add_last().
+  /// Return the discretization errors of all load cases, as estimated or given to add_last().
   const std::vector<MeshError> &errors() const { return last_errors; }
 
   /// Print what there is to say of a scene with these states, for the log and the summary.

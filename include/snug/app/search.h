@@ -7,56 +7,59 @@
 #include <snug/optimization/journal.h>
 
 namespace snug::app {
-/// What the searches of a run write to, one after the other.
+/// The journal and the history that the searches of a run write, one after the other.
 template <int dim>
-struct Books
+struct SearchRecord
 {
-  /// Those of the output directory of @p scene go on if @p restart; its problem may be that of
-  /// another mesh. Collective. @throws InputError.
-  Books(Results<dim>            &results,
-        const ShapeProblem<dim> &problem,
-        const scene::Scene      &scene,
-        bool                     restart);
+  /// Open the files in the output directory of @p scene, or continue them if @p restart. The mesh
+  /// of @p problem may be another one than that of later searches. Collective. @throws InputError.
+  SearchRecord(Results<dim>            &results,
+               const ShapeProblem<dim> &problem,
+               const scene::Scene      &scene,
+               bool                     restart);
 
-  Results<dim>         &results;
-  double                first_violation = 0.; ///< of constraints, by the first design
-  io::History           history;
+  Results<dim> &results;
+  double        first_violation = 0.; ///< maximum violation of constraints at the first design
+  io::History   history;
   optimization::Journal journal;
 };
 
 /**
- * Searches for the best design of a shape problem, on its mesh: with contact paired anew where the
- * design has moved slave nodes along the master, with log, history, journal and pictures.
+ * An optimization of a shape problem on its mesh, with log, history, journal and pictures. If the
+ * design has moved slave nodes along the master, a new contact search and a further optimization
+ * follow.
  */
 template <int dim>
 class Search
 {
 public:
-  /// Arguments must outlive this. May solve the first design, see Evaluator. Collective.
-  Search(ShapeProblem<dim> &problem, Books<dim> &books);
+  using Design = typename ShapeProblem<dim>::Design;
+
+  /// Arguments must outlive this object. @p paired is the design of the contact search of
+  /// @p problem. May solve the first design, see Evaluator. Collective.
+  Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const Design &paired);
 
   /**
-   * Minimize from @p start, until the objective changes by less than @p tolerance, relative, or as
-   * little as the scene asks for. Counts and the first objective go on from those of @p before.
-   * Collective. @throws SolveError, TangledMesh if the start has no value.
+   * Minimize from @p start, until the relative change of the objective is below the larger of
+   * @p tolerance and the tolerance of the scene. Counts and the first objective continue those of
+   * @p before. Collective. @throws SolveError, TangledMesh if @p start cannot be evaluated.
    */
-  optimization::OptimizationResult run(const std::vector<double>              &start,
+  optimization::OptimizationResult run(const Design                           &start,
                                        const optimization::OptimizationResult &before    = {},
                                        double                                  tolerance = 0.);
 
-  /// The evaluator's own evaluation. Collective.
-  optimization::Evaluation evaluate(const std::vector<double> &design);
-
-  /// The evaluator's own gradients, with warnings. Collective.
-  void differentiate(const std::vector<double> &design, optimization::Evaluation &evaluation);
-
-  /// Draw and summarize the first design with its own pairing, if that is
-  /// not done: after a replay it has not been solved in this run. Collective.
+  /// Write fields and summary of the first design, unless they are written. After a replay, the
+  /// first design is solved for them. Collective.
   void finish_first();
+
+  /// Warn if the gradients at @p design are one-sided, because a contact has neither a gap nor a
+  /// force. Collective.
+  void warn_of_weak_contacts(const Design &design);
 
   void log(const std::string &line) const { problem.context.out() << line << std::endl; }
 
   ShapeProblem<dim> &problem;
+  SearchRecord<dim> &record;
   Results<dim>      &results;
   Evaluator<dim>     evaluator;
 
@@ -64,10 +67,9 @@ private:
   using Result = optimization::OptimizationResult;
 
   void   report(const optimization::Iteration &iteration, unsigned int before);
-  Result run_paired(const std::vector<double> &start, const Result &before, double tolerance);
-  bool   pair_anew(const Result &result);
-
-  Books<dim> &books;
+  void   report_first(const optimization::Iteration &iteration);
+  Result run_with_pairing(const Design &start, const Result &before, double tolerance);
+  bool   update_pairing(const Result &result);
 };
 } // namespace snug::app
 

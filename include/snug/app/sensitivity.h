@@ -22,7 +22,7 @@ public:
 
   /// For the summary.
   io::Summary::Gradient gradient;
-  /// Of the method that was asked for, if asked for: this rank's share.
+  /// Shape gradient by the requested method, if requested: this rank's share.
   std::optional<Field> shape_gradient;
 
 private:

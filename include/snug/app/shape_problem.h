@@ -20,7 +20,7 @@ class ShapeProblem
 public:
   using Field  = typename mesh::BodyMesh<dim>::Field;
   using Design = std::vector<double>;
-  /// Of one design in all load cases.
+  /// States of one design in all load cases.
   using States = std::vector<state::ContactState<dim>>;
 
   /// Makes all but the mesh. Collective. @throws InputError naming the file.
@@ -41,20 +41,22 @@ public:
   /// Collective. @throws SolveError.
   States solve(const Design &design, const std::vector<qp::WarmStart> &starts = {});
 
-  /// The objective, combined of its values in @p states. The scale of
-  /// 'worst' is that of the first states combined. Collective.
-  optimization::Combined combined_objective(const States &states);
+  /// Scale the objective 'worst' by the values of @p states in combined_objective(). Without a
+  /// call, each objective is scaled by its own values. Collective.
+  void scale_objective(const States &states);
 
-  /// The objective combined of its values in all load cases, once combined_objective() knows the
-  /// scale of 'worst'.
+  /// Return the objective, combined of its values in @p states. Collective.
+  optimization::Combined combined_objective(const States &states) const;
+
+  /// Return the objective, combined of its values in all load cases.
   optimization::Combined combined(const std::vector<double> &values) const;
 
   /// The response called @p name. Collective. @throws InputError if the
   /// scene has nothing it could measure.
   std::unique_ptr<response::Response<dim>> make_response(const std::string &name) const;
 
-  /// What combined_gradients() differentiates at; all arguments must
-  /// outlive the result.
+  /// Return the argument of combined_gradients() for @p states. All arguments must outlive the
+  /// result.
   sensitivity::LoadCases<dim> load_cases(const States                          &states,
                                          const Design                          &design,
                                          const sensitivity::GradientParameters &parameters) const;
@@ -74,9 +76,11 @@ public:
   std::vector<std::unique_ptr<response::Response<dim>>> responses;
 
 private:
-  double objective_scale = 0.; ///< 0: not known yet
+  double objective_scale = 0.; ///< 0: the scale of the values that are combined
 
-  double weight(unsigned int load_case) const;
+  double              scale(const std::vector<double> &values) const;
+  std::vector<double> objective_values(const States &states) const;
+  double              weight(unsigned int load_case) const;
 };
 } // namespace snug::app
 

@@ -51,7 +51,7 @@ const Choice<Make> &choose(const ChoiceTable<Make> &table, const std::string &na
         return choice;
       known += (known.empty() ? "" : ", ") + choice.name;
     }
-  throw InputError("'" + name + "' is none of " + known);
+  throw InputError("'" + name + "' is not one of " + known);
 }
 } // namespace snug
 

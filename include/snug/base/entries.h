@@ -16,11 +16,11 @@ namespace snug {
 /// Values that an entry accepts, as functions and as text.
 struct Form
 {
-  std::string                 allowed   = {}; ///< completes "must be "; "": follows from the type
-  std::vector<std::string>    choices   = {}; ///< if the entry is a choice
-  std::string                 explained = {}; ///< meaning of the choices
-  std::function<bool(double)> contains  = {}; ///< checks every number of the value; empty: no check
-  std::string                 range     = {}; ///< "must be positive", if contains() is false
+  std::string                 allowed  = {}; ///< completes "must be "; "": follows from the type
+  std::vector<std::string>    choices  = {}; ///< if the entry is a choice
+  Names                       meanings = {}; ///< of values, or of forms of values
+  std::function<bool(double)> contains = {}; ///< checks every number of the value; empty: no check
+  std::string                 range    = {}; ///< "must be positive", if contains() is false
   /// "numbers": one per dimension, or an empty list; "": any number of numbers
   std::string per_dimension = {};
 };
@@ -42,6 +42,10 @@ Form choice_or_auto(const std::string &meaning)
   all.insert(all.begin(), {"auto", meaning});
   return choice(all);
 }
+
+/// Return @p form with the meanings of values, or of forms of values. They are listed below the
+/// table of parameters.
+Form with_meanings(Form form, const Names &meanings);
 
 /// Return the form "must be positive".
 Form positive();

@@ -1,6 +1,8 @@
 #ifndef snug_base_run_context_h
 #define snug_base_run_context_h
 
+#include <snug/base/values.h>
+
 #include <mpi.h>
 
 #include <chrono>
@@ -25,6 +27,21 @@ struct Work
   unsigned long soft_modes                  = 0; ///< found, coarse vectors of the dual problem
 };
 
+/// Amount of text in the log. Each level contains the text of the levels before.
+enum class Verbosity
+{
+  quiet,
+  normal,
+  debug
+};
+inline Names names(Verbosity)
+{
+  return {{"quiet", "warnings, errors and the final result"},
+          {"normal", "also sizes, contacts, convergence and certificates"},
+          {"debug", "also numbers for developers of the program, such as soft modes and the memory "
+                    "after each stage"}};
+}
+
 /**
  * The communicator, the log, the work counters and the wall seconds per stage of one run. A
  * RunContext is passed by reference to the stages of the run. There is no global one.
@@ -41,13 +58,20 @@ public:
 
   unsigned int n_ranks() const { return size; }
 
-  /// Return the log, which discards everything on ranks other than 0.
-  std::ostream &out();
+  /// Set the amount of text in the log, which is Verbosity::normal before the first call.
+  void set_verbosity(Verbosity level) { verbosity = level; }
+
+  /// Return the log for text of @p level. The log discards text above the verbosity, and
+  /// everything on ranks other than 0.
+  std::ostream &out(Verbosity level = Verbosity::normal);
+
+  /// Print "warning: " and @p text as a line of the log, at every verbosity.
+  void warn(const std::string &text);
 
   /**
    * Show @p text as the live line of a long stage, overwriting the previous one. Only rank 0
-   * shows it, if standard output is a terminal and no MPI launcher is between the program and the
-   * terminal.
+   * shows it, if the log is not quiet, standard output is a terminal and no MPI launcher is between
+   * the program and the terminal.
    */
   void progress(const std::string &text);
 
@@ -91,6 +115,7 @@ private:
   unsigned int                          my_rank;
   unsigned int                          size;
   std::ostream                         *stream;
+  Verbosity                             verbosity = Verbosity::normal;
   bool                                  live_line;
   bool                                  live_line_shown = false;
   std::map<std::string, double>         stage_seconds, stage_memory;
@@ -104,7 +129,7 @@ private:
  * TangledMesh and bad_alloc (any error that is_out_of_memory()) keep their kind. All other errors
  * become a runtime_error. Collective on @p communicator; @p work must not be collective.
  */
-void everywhere(MPI_Comm communicator, const std::function<void()> &work);
+void throw_collectively(MPI_Comm communicator, const std::function<void()> &work);
 } // namespace snug
 
 #endif

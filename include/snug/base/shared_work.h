@@ -11,7 +11,7 @@ namespace snug {
  * Compute work whose results all ranks need. Item i, compute(i), is computed by one rank only, and
  * its numbers are sent to all ranks. Ranks take neighboring items with about equal sums of
  * @p costs. The results do not depend on the number of ranks. If one rank throws, all ranks throw,
- * see everywhere(). Collective on @p communicator; compute() must not be collective.
+ * see throw_collectively(). Collective on @p communicator; compute() must not be collective.
  */
 std::vector<std::vector<double>>
 shared_work(MPI_Comm                                                communicator,

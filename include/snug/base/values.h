@@ -36,6 +36,10 @@ std::vector<std::string> components(const std::string &text);
 /// Return components separated by commas or, if there is no comma, by blanks.
 std::vector<std::string> vector_components(const std::string &text);
 
+/// Return a number and its noun: "1 face", "2 faces". @p plural is the noun for all numbers except
+/// 1; empty: @p noun with an s.
+std::string counted(std::size_t n, const std::string &noun, const std::string &plural = "");
+
 std::string to_text(double value);
 std::string to_text(unsigned int value);
 std::string to_text(bool value);

@@ -82,7 +82,7 @@ public:
   unsigned int                 n_rows() const { return row_places.size(); }
   const std::vector<RowPlace> &places() const { return row_places; }
   /// Return the shared nodes of all groups, with row indices that count through all groups.
-  const std::vector<SharedNode> &shared_nodes() const { return shared; }
+  const std::vector<DependentMultiplier> &dependent_multipliers() const { return shared; }
 
   std::vector<Row<dim>> rows(const Field &positions) const;
   std::vector<Row<dim>> row_derivatives(const Field &positions, const Field &velocity) const;
@@ -104,13 +104,15 @@ public:
   /// @{
   /// Return the displacement of the slave nodes along the master, at right angles to the normals,
   /// for @p rows at @p positions.
-  std::vector<double>
-  slips(const Field &positions, const std::vector<Row<dim>> &rows, const Field &displacement) const;
+  std::vector<double> tangential_slips(const Field                 &positions,
+                                       const std::vector<Row<dim>> &rows,
+                                       const Field                 &displacement) const;
   /// Return how far the slave nodes have moved along the master off the points they were paired
-  /// with. The feet of nodal rows follow the nodes within their faces, so only the distance off the
-  /// face counts for these rows. For obstacles the value is 0, because the closest point follows
-  /// the node.
-  std::vector<double> drifts(const Field &positions, const std::vector<Row<dim>> &rows) const;
+  /// with. The foot points of nodal rows follow the nodes within their faces, so only the distance
+  /// off the face counts for these rows. For obstacles the value is 0, because the closest point
+  /// follows the node.
+  std::vector<double> pairing_drifts(const Field                 &positions,
+                                     const std::vector<Row<dim>> &rows) const;
   /// Return the gaps of each pair at its pairing.
   const std::vector<PairedGaps> &paired_gaps() const { return gaps; }
   /// @}
@@ -124,17 +126,17 @@ private:
     double step; ///< step of the difference quotients of offset [length]
   };
 
-  const mesh::Surface<dim>   &surface;
-  const faces::FaceShape<dim> shape;
-  std::vector<JoinedPair>     joined;
-  std::vector<Pair>           chosen; ///< the pairs of joined
-  std::vector<NamedPair>      named;
-  std::vector<Matching>       matching_of; ///< one per pair
-  std::vector<Group>          groups;      ///< one per pair
-  std::vector<RowPlace>       row_places;
-  std::vector<SharedNode>     shared;
-  Field                       paired_offsets; ///< one per row, at the pairing
-  std::vector<PairedGaps>     gaps;           ///< one per pair, at the pairing
+  const mesh::Surface<dim>        &surface;
+  const faces::FaceShape<dim>      shape;
+  std::vector<JoinedPair>          joined;
+  std::vector<Pair>                chosen; ///< the pairs of joined
+  std::vector<NamedPair>           named;
+  std::vector<Matching>            matching_of; ///< one per pair
+  std::vector<Group>               groups;      ///< one per pair
+  std::vector<RowPlace>            row_places;
+  std::vector<DependentMultiplier> shared;
+  Field                            paired_offsets; ///< one per row, at the pairing
+  std::vector<PairedGaps>          gaps;           ///< one per pair, at the pairing
 
   PairGeometry<dim> geometry(unsigned int                      p,
                              const Field                      &positions,
@@ -146,7 +148,7 @@ private:
   std::vector<std::vector<bool>> contested_nodes(const Field &positions) const;
   void                           check_named_pairs() const;
   void  share_rows(const Field &positions, const faces::HeldDirections<dim> &held);
-  void  collect_shared_nodes();
+  void  collect_dependent_multipliers();
   void  measure_pairing(const Field &positions);
   Group make_group(const PairGeometry<dim> &geometry) const;
 };

@@ -34,7 +34,7 @@ struct JoinedPair
   /// Return the pair of the scene that names both boundaries. If no pair names both, return the
   /// first pair that names @p slave, else the first that names @p master.
   unsigned int pair_of(const Boundary &slave, const Boundary &master) const;
-  void         exchange_sides();
+  void         swap_slave_master();
 };
 
 /// Join the pairs of a scene at the given positions. A side with several boundaries stands for all

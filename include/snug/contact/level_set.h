@@ -27,11 +27,11 @@ public:
   std::optional<ObstacleDistance<dim>> distance(const dealii::Point<dim> &x) const override;
 
 private:
-  struct Foot;
+  struct ClosestPoint;
 
-  void                evaluate(Foot &foot) const;
-  bool                descend(const dealii::Point<dim> &x, Foot &foot) const;
-  std::optional<Foot> foot(const dealii::Point<dim> &x) const;
+  void                        evaluate(ClosestPoint &closest) const;
+  bool                        descend(const dealii::Point<dim> &x, ClosestPoint &closest) const;
+  std::optional<ClosestPoint> closest_point(const dealii::Point<dim> &x) const;
 
   const geometry::Formula<dim> formula;
   const dealii::Point<dim>     origin;

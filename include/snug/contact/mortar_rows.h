@@ -3,10 +3,9 @@
 
 #include <snug/contact/pair_geometry.h>
 #include <snug/contact/row_group.h>
-#include <snug/contact/supported_normals.h>
-#include <snug/mortar/face_arrays.h>
-#include <snug/mortar/moment_correction.h>
+#include <snug/faces/nodal_normals.h>
 #include <snug/mortar/mortar_coupling.h>
+#include <snug/mortar/mortar_face.h>
 #include <snug/mortar/multiplier_nodes.h>
 
 #include <algorithm>
@@ -15,7 +14,7 @@ namespace snug::contact {
 /**
  * This class provides the mortar contact of one pair. The pressure sum_i p_i psi_i n_i acts between
  * the faces. psi_i are the functions of the multiplier nodes (FaceCoupling, MultiplierNodes), and
- * n_i are the SupportedNormals of the slave side at these nodes. Row i is the mean gap weighted by
+ * n_i are the NodalNormals of the slave side at these nodes. Row i is the mean gap weighted by
  * psi_i:
  *   c_l = n_i D_il / a_i,  c_k = -n_i (M_ik + dM_ik) / a_i,
  *   gap = n_i . int psi_i (x_master - x_slave) / a_i,
@@ -40,7 +39,7 @@ public:
   explicit MortarRows(const PairGeometry<dim> &pair);
 
   const std::vector<unsigned int> &slaves() const override { return multipliers.nodes; }
-  std::vector<SharedNode>          shared_nodes() const override;
+  std::vector<DependentMultiplier> dependent_multipliers() const override;
   std::vector<Row<dim>>            rows(const Field &positions) const override;
   std::vector<Row<dim>>            row_derivatives(const Field &positions,
                                                    const Field &velocity) const override;
@@ -61,15 +60,20 @@ private:
     mortar::MultiplierFunctions functions;
   };
 
+  template <typename Number>
+  using Points = faces::PointField<dim, Number>;
+
   /// Sums of row i over the slave faces. The coefficients are a_i times those of the row, without
   /// n_i and dM. The weights are those of the moment correction. Both have one entry per node of
   /// the row. The offset is the integral of psi_i (x_master - x_slave), and the area is a_i.
   template <typename Number>
   struct RowSum
   {
-    std::vector<Number>     coefficients, weights;
-    std::array<Number, dim> offset{};
-    Number                  area = 0.;
+    std::vector<Number>            coefficients, weights;
+    dealii::Tensor<1, dim, Number> offset;
+    Number                         area = 0.;
+
+    explicit RowSum(unsigned int n_nodes) : coefficients(n_nodes), weights(n_nodes) {}
   };
 
   const mesh::Surface<dim>              &surface;
@@ -86,18 +90,18 @@ private:
                                          const mortar::FaceIntegrals<double> &of_nodes,
                                          const mortar::CoverBox<dim>         &box,
                                          const Field                         &positions) const;
-  mortar::CoverBox<dim> cover_box(const SlaveFace                      &face,
-                                  const mortar::FaceNodes<dim, double> &x) const;
+  mortar::CoverBox<dim> cover_box(const SlaveFace &face, const Points<double> &x) const;
   std::vector<double>   costs() const;
   void                  collect_row_nodes();
   void                  leave_out_far_rows(const PairGeometry<dim> &pair);
   template <typename Number>
-  mortar::FaceIntegrals<Number> integrals(const SlaveFace                      &face,
-                                          const mortar::FaceNodes<dim, Number> &x) const;
+  std::vector<mortar::MortarFace<dim, Number>> masters(const SlaveFace      &face,
+                                                       const Points<Number> &x) const;
+  template <typename Number>
+  mortar::FaceIntegrals<Number> integrals(const SlaveFace &face, const Points<Number> &x) const;
   /// Compute the integrals of all slave faces. Collective.
   template <typename Number>
-  std::vector<mortar::FaceIntegrals<Number>>
-  all_integrals(const mortar::FaceNodes<dim, Number> &x) const;
+  std::vector<mortar::FaceIntegrals<Number>> all_integrals(const Points<Number> &x) const;
   /// Call visit(place in row_nodes[row], weight) for @p node, or for each of its masters if @p node
   /// hangs.
   template <typename Visit>
@@ -114,46 +118,35 @@ private:
       at(master.first, master.second);
   }
 
+  /// Call add(row, number, entry) for all parts of sums that are integrals over one slave face,
+  /// where entry(sum) is the entry of the RowSum to which the number belongs. Positions count from
+  /// @p origin.
+  template <typename Number, typename Add>
+  void for_each_part(const SlaveFace                     &face,
+                     const mortar::FaceIntegrals<Number> &of_shapes,
+                     const Points<Number>                &x,
+                     const dealii::Tensor<1, dim>        &origin,
+                     const Add                           &add) const;
   template <typename Number>
-  void add_face(const SlaveFace                      &face,
-                const mortar::FaceIntegrals<Number>  &of_shapes,
-                const mortar::FaceNodes<dim, Number> &x,
-                std::vector<RowSum<Number>>          &sums) const;
+  std::vector<RowSum<Number>> row_sums(const Points<Number> &x) const;
+  /// Return row @p i from its sum and the normals @p n of the slave side.
   template <typename Number>
-  std::vector<RowSum<Number>> row_sums(const mortar::FaceNodes<dim, Number> &x) const;
-  /// Return the moment correction of row @p i with the normal @p n.
-  template <typename Number>
-  mortar::MomentCorrection<dim, Number> correction(unsigned int                          i,
-                                                   const RowSum<Number>                 &sum,
-                                                   const mortar::FaceNodes<dim, Number> &x,
-                                                   const std::array<Number, dim>        &n) const;
-
-  /// Energy of the rows, sum_i force_i / a_i n_i . r_i, where r_i is the integral of psi_i (y_slave
-  /// - y_master) and y = x + u.
-  struct Energy
-  {
-    Field               positions, deformed; ///< x, y
-    Field               directions;          ///< force_i n_i / a_i per row
-    std::vector<double> area_slopes;         ///< derivatives with respect to a_i
-    /// derivatives of the moment corrections with respect to the coefficients and weights of
-    /// RowSum, per row; empty where there are no corrections
-    std::vector<std::vector<double>> coefficient_slopes, weight_slopes;
-  };
-
-  Field  deformed(const Field &positions, const Field &displacement) const;
-  double correction_slope(const std::vector<std::vector<double>> &slopes,
-                          unsigned int                            slave_node,
-                          unsigned int                            node,
-                          bool                                    absolute) const;
-  void   add_to_points(unsigned int                           face,
-                       const mortar::MortarFace<dim, double> &values,
-                       Field                                 &gradient) const;
-  mortar::FaceIntegrals<double>
-       integral_slopes(const SlaveFace                     &face,
-                       const Energy                        &energy,
-                       const mortar::FaceIntegrals<double> &of_shapes,
-                       const mortar::FaceCoupling<double>  &to_coupling) const;
-  void add_face_gradient(const SlaveFace &face, const Energy &energy, Field &gradient) const;
+  Row<dim, Number> row(unsigned int          i,
+                       const RowSum<Number> &sum,
+                       const Points<Number> &x,
+                       const Points<Number> &n) const;
+  /// Return the derivatives of the energy of the rows with respect to their sums. Add the
+  /// derivatives with respect to positions and normals at fixed sums.
+  std::vector<RowSum<double>> add_sum_derivatives(const Field               &positions,
+                                                  const Field               &normals,
+                                                  const Field               &displacement,
+                                                  const std::vector<double> &forces,
+                                                  Field                     &gradient,
+                                                  Field                     &normal_gradient) const;
+  void                        add_face_gradient(const SlaveFace                   &face,
+                                                const std::vector<RowSum<double>> &slopes,
+                                                const Field                       &positions,
+                                                Field                             &gradient) const;
 };
 } // namespace snug::contact
 

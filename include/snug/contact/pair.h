@@ -22,12 +22,11 @@ enum class Method
 };
 inline Names names(Method)
 {
-  return {{"nodal",
-           "slave nodes against the closest points of master faces; beyond the end of the master "
-           "side forces fade, to zero at 5 % of a face"},
+  return {{"nodal", "slave nodes against the points of master faces whose normals lead to them. "
+                    "Forces are reduced to zero from "
+                    "the edge of the master side to 5 % of a face beyond it."},
           {"mortar",
-           "mean gaps around slave nodes, integrated over both faces: for meshes that do not "
-           "match"}};
+           "mean gaps around slave nodes, integrated over both faces, for non-matching meshes"}};
 }
 
 enum class Slave
@@ -37,7 +36,13 @@ enum class Slave
 };
 inline Names names(Slave)
 {
-  return {{"finer"}, {"first"}};
+  return {
+    {"finer",
+     "side with the smaller mean face size; for mortar contact, side with the larger mean face "
+     "size if h E > 1.5, where h is the ratio of the face sizes (larger over smaller) and E the "
+     "ratio of Young's moduli (larger over smaller). Sizes within 10 % count as equal; then "
+     "it is the first side."},
+    {"first", "side that is named first"}};
 }
 
 /// Parameters of the contact of two sides: entries of `subsection Contact`, for all pairs, and of
@@ -120,7 +125,7 @@ struct Pair
   std::optional<ObstacleParameters> obstacle   = {};
   /// ratio of Young's moduli of the softest materials of the two bodies, the larger over the
   /// smaller
-  double contrast = 1.;
+  double modulus_ratio = 1.;
 
   /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }

@@ -65,21 +65,22 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
 
 /// Return the slave nodes on the axis of revolution without an area, with the rows of other nodes
 /// that act for them. The parabola through the other two nodes of the face that has slope 0 on the
-/// axis has the value (4 p_1 - p_2) / 3 there. @p slaves are the nodes of the rows, and @p idle are
-/// the nodes without an area.
+/// axis has the value (4 p_1 - p_2) / 3 there. @p slaves are the nodes of the rows, and @p
+/// zero_area_nodes are the nodes without an area.
 template <int dim>
-std::vector<SharedNode> shared_on_axis(const mesh::Surface<dim>        &surface,
-                                       const std::vector<unsigned int> &faces,
-                                       const std::vector<unsigned int> &slaves,
-                                       const std::vector<unsigned int> &idle);
+std::vector<DependentMultiplier>
+dependent_on_axis(const mesh::Surface<dim>        &surface,
+                  const std::vector<unsigned int> &faces,
+                  const std::vector<unsigned int> &slaves,
+                  const std::vector<unsigned int> &zero_area_nodes);
 
 /// This class checks whether slave nodes and their opposite points on the master are close enough
 /// and face each other.
 template <int dim>
-class Opposition
+class SearchCriteria
 {
 public:
-  explicit Opposition(const PairGeometry<dim> &pair);
+  explicit SearchCriteria(const PairGeometry<dim> &pair);
 
   /// Return whether the absolute value of @p distance is within the search distance, up to
   /// round-off.
@@ -87,7 +88,7 @@ public:
 
   /// Return whether the node is near and its normal is within the largest angle to the unit
   /// @p normal into the master.
-  bool holds(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const
+  bool are_met(unsigned int slave, double distance, const dealii::Tensor<1, dim> &normal) const
   {
     return is_near(distance) && normals[slave] * normal >= least_cosine;
   }

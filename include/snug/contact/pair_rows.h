@@ -10,12 +10,13 @@ namespace snug::contact {
 /**
  * Return the rows of nodal (node to face) contact of one pair. The row of slave node s with the
  * weights w_k of its Projection to a master face is
- *   c_s = n,  c_k = -w_k n,  gap = n . (x_m - x_s) + relief,  n = -v/|v|,  v = sum_k w_k n_k
- * with the relief of the Projection and the SupportedNormals n_k of the master. x_m is the point of
- * the true surface of the face over its point sum_k w_k x_k. Hanging master nodes are replaced by
- * their masters. Faces stay; weights (Foot), normals and gaps follow the positions. Slave nodes
- * that hang carry no row. Slave nodes carry no row either if their closest point lies beyond the
- * edge of the master side (edge_tolerance), is out of reach or does not face them (Opposition).
+ *   c_s = n,  c_k = -w_k n,  gap = n . (x_m - x_s) + softening,  n = -v/|v|,  v = sum_k w_k n_k
+ * with the softening of the Projection and the NodalNormals n_k of the master. x_m is the point
+ * of the true surface of the face over its point sum_k w_k x_k. Hanging master nodes are replaced
+ * by their masters. Faces stay; weights (NormalProjection), normals and gaps follow the positions.
+ * Slave nodes that hang carry no row. Slave nodes carry no row either if their closest point lies
+ * beyond the edge of the master side (edge_tolerance), is out of reach or does not face them
+ * (SearchCriteria).
  */
 template <int dim>
 std::unique_ptr<RowGroup<dim>> nodal_rows(const PairGeometry<dim> &pair);
@@ -26,7 +27,7 @@ std::unique_ptr<RowGroup<dim>> nodal_rows(const PairGeometry<dim> &pair);
  *   c_s = n = -grad d(x_s),  gap = d(x_s) + n . w,
  * where w is the displacement of the obstacle. Normal and gap follow the slave node: n' = -H V_s
  * with the Hessian H of d, d' = -n . V_s. Slave nodes that hang, are out of reach or do not face
- * the obstacle (Opposition) carry no row.
+ * the obstacle (SearchCriteria) carry no row.
  */
 template <int dim>
 std::unique_ptr<RowGroup<dim>> obstacle_rows(const PairGeometry<dim> &pair);

@@ -4,7 +4,7 @@
 #include <snug/contact/obstacle.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/contact/projection.h>
-#include <snug/contact/supported_normals.h>
+#include <snug/faces/nodal_normals.h>
 #include <snug/geometry/formula.h>
 
 namespace snug::contact {
@@ -41,11 +41,11 @@ public:
   double given(const dealii::Tensor<1, dim> &x) const;
 
 private:
-  using Normals = std::unique_ptr<SupportedNormals<dim>>;
+  using Normals = std::unique_ptr<faces::NodalNormals<dim>>;
 
-  std::optional<PointProjection<dim>> foot(const dealii::Tensor<1, dim> &x,
-                                           const dealii::Tensor<1, dim> &slave_normal) const;
-  dealii::Tensor<1, dim>              place(const PointProjection<dim> &foot) const;
+  std::optional<PointProjection<dim>> project(const dealii::Tensor<1, dim> &x,
+                                              const dealii::Tensor<1, dim> &slave_normal) const;
+  dealii::Tensor<1, dim>              place(const PointProjection<dim> &projection) const;
 
   const Field                            &positions;
   std::unique_ptr<geometry::Formula<dim>> offset;

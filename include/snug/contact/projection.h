@@ -2,8 +2,8 @@
 #define snug_contact_projection_h
 
 #include <snug/contact/nearest_face.h>
-#include <snug/contact/normal_rays.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/contact/projection_equations.h>
 #include <snug/faces/outer_edges.h>
 
 #include <memory>
@@ -16,22 +16,21 @@ namespace snug::contact {
 using Weights = std::vector<std::pair<unsigned int, double>>;
 
 /**
- * Projection of a point p to a master face. The foot of p is the point x(xi) = sum_k w_k x_k of the
- * face from which the normal of the master side leads to p,
- *   p = x(xi) + t v(xi),  v(xi) = sum_k w_k n_k,  w_k = N_k(xi),
- * with the nodal normals n_k. On a circle or a sphere v is radial up to round-off, so that rows
- * have no lever about its centre. The point of the facet that is closest to the node would give
- * rows such a lever.
+ * Projection of a point p to a master face. The foot point of p is the point x(xi) = sum_k w_k x_k
+ * of the face from which the normal of the master side leads to p, p = x(xi) + t v(xi),  v(xi) =
+ * sum_k w_k n_k,  w_k = N_k(xi), with the nodal normals n_k. On a circle or a sphere v is radial up
+ * to round-off, so that rows have no lever about its centre. The point of the facet that is closest
+ * to the node would give rows such a lever.
  */
 template <int dim>
 struct PointProjection
 {
-  unsigned int           face;    ///< index of the surface face
-  dealii::Point<dim - 1> xi;      ///< coordinates of the foot
-  bool                   is_ray;  ///< false: the closest point, as no ray leads to the node
-  Weights                masters; ///< nodes of the face
-  Weights                surface; ///< points that give the true surface where the ray meets it
-  double relief; ///< edge_relief() beyond the end of the master side, else 0 [length]
+  unsigned int           face;      ///< index of the surface face
+  dealii::Point<dim - 1> xi;        ///< coordinates of the foot point
+  bool                   is_normal; ///< false: the closest point, as no normal leads to p
+  Weights                masters;   ///< nodes of the face
+  Weights                surface;   ///< points that give the true surface where the normal meets it
+  double softening; ///< edge_softening() beyond the end of the master side, else 0 [length]
 };
 
 /// Projection of a slave node, computed once per pairing.
@@ -56,7 +55,7 @@ constexpr double edge_tolerance = 0.05;
  * no kink, and it is infinite where nodes cease to carry a row. So forces fade as nodes leave the
  * master side.
  */
-constexpr double edge_relief(double excess, double h)
+constexpr double edge_softening(double excess, double h)
 {
   const double t = excess / edge_tolerance;
   return 0.5 * edge_tolerance * h * t * t * t * t / (1. - t * t);
@@ -64,7 +63,7 @@ constexpr double edge_relief(double excess, double h)
 
 /**
  * This class projects points onto a master side along the @p normals of its nodes. The search
- * starts from the closest point. The closest point is taken where no ray is found, as beyond the
+ * starts from the closest point. The closest point is taken where no normal is found, as beyond the
  * edge. The candidate faces come from a tree of boxes that contain the faces, so that no face is
  * missed. Of equally close faces, the one with the lowest index is taken. Weights below 1e-12
  * become 0.
@@ -94,17 +93,17 @@ private:
   const faces::OuterEdges<dim>           edges;
   std::vector<std::vector<unsigned int>> faces_at; ///< per surface node
 
-  NormalRays<dim> rays(unsigned int face) const
+  ProjectionEquations<dim> equations(unsigned int face) const
   {
     return {surface.faces()[face], shape, positions, normals};
   }
 
-  /// Return the face and the coordinates where the ray to @p p begins, searched near the closest
-  /// point. Return nothing where the side ends.
+  /// Return the face and the coordinates of the normal that leads to @p p, searched near the
+  /// closest point. Return nothing where the side ends.
   std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
-  find_ray(const dealii::Tensor<1, dim> &p,
-           unsigned int                  face,
-           const dealii::Point<dim - 1> &closest) const;
+  find_normal(const dealii::Tensor<1, dim> &p,
+              unsigned int                  face,
+              const dealii::Point<dim - 1> &closest) const;
 };
 
 /// Return the projections of the slave nodes that do not hang, in the order of the slave faces and

@@ -12,21 +12,21 @@ namespace snug::contact {
  * One row of non-penetration, sum_a c_a . u_a <= gap [length]. The coefficients c_a have no units,
  * so the multiplier of the row is a force: -c_a times the multiplier acts on node a.
  */
-template <int dim>
+template <int dim, typename Number = double>
 struct Row
 {
   /// surface nodes, ascending and without hanging nodes, and c_a
-  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> coefficients;
-  double                                                       gap = 0.;
+  std::vector<std::pair<unsigned int, dealii::Tensor<1, dim, Number>>> coefficients;
+  Number                                                               gap = 0.;
   /// unit normal into the master; -force * normal acts on the slave side
-  dealii::Tensor<1, dim> normal;
-  /// only for a moving foot: distance off its face, as a fraction of the face
+  dealii::Tensor<1, dim, Number> normal;
+  /// only for a moving foot point: distance off its face, as a fraction of the face
   std::optional<double> off_face = {};
 };
 
 /// A slave node without a row of its own, with the rows that act for it and their shares. The
 /// shares sum to 1, or to less where rows are out of reach.
-struct SharedNode
+struct DependentMultiplier
 {
   unsigned int                                 node; ///< surface node
   std::vector<std::pair<unsigned int, double>> rows;
@@ -55,7 +55,7 @@ public:
   virtual const std::vector<unsigned int> &slaves() const = 0;
 
   /// Return the nodes for which rows of other nodes act. None of these nodes hangs.
-  virtual std::vector<SharedNode> shared_nodes() const { return {}; }
+  virtual std::vector<DependentMultiplier> dependent_multipliers() const { return {}; }
 
   virtual std::vector<Row<dim>> rows(const Field &positions) const = 0;
 

@@ -12,10 +12,10 @@ enum class Formulation
 };
 inline Names names(Formulation)
 {
-  return {{"standard", "displacements alone; locks as Poisson's ratio goes to 0.5"},
+  return {{"standard",
+           "volumetric strain of the displacements; locks at Poisson's ratios near 0.5"},
           {"B-bar",
-           "the change of volume by its mean in each cell (of degree 2: by a linear function), "
-           "does not lock"}};
+           "mean volumetric strain of each cell (for degree 2: a linear function); does not lock"}};
 }
 } // namespace snug::elasticity
 

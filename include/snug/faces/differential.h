@@ -1,6 +1,8 @@
 #ifndef snug_faces_differential_h
 #define snug_faces_differential_h
 
+#include <deal.II/base/template_constraints.h>
+
 #include <array>
 #include <cmath>
 
@@ -105,5 +107,14 @@ Number dot(const std::array<Number, n> &a, const std::array<Number, n> &b)
   return sum;
 }
 } // namespace snug::faces
+
+namespace dealii {
+/// Allow numbers with derivatives in tensors.
+template <int n>
+struct EnableIfScalar<snug::faces::Differential<n>>
+{
+  using type = snug::faces::Differential<n>;
+};
+} // namespace dealii
 
 #endif

@@ -1,7 +1,7 @@
 #ifndef snug_faces_face_map_h
 #define snug_faces_face_map_h
 
-#include <snug/faces/differential.h>
+#include <snug/faces/recording.h>
 
 #include <array>
 #include <vector>

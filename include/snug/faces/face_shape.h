@@ -5,6 +5,7 @@
 #include <snug/mesh/surface.h>
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 namespace snug::faces {
@@ -84,15 +85,34 @@ struct TrueSurface
   {}
 };
 
-/// Return x,_1 and x,_2 of the face with @p nodes at a point with shape @p values.
-template <int dim>
-typename FaceShape<dim>::Tangents tangents(const typename FaceShape<dim>::Values    &values,
-                                           const std::vector<unsigned int>          &nodes,
-                                           const typename mesh::Surface<dim>::Field &field);
+/// Return x,_1 and x,_2 of the face with @p nodes at a point with shape @p values. @p field
+/// contains positions, or velocities for the derivatives of the tangents: a Field or a PointField.
+template <int dim, typename Points>
+auto tangents(const typename FaceShape<dim>::Values &values,
+              const std::vector<unsigned int>       &nodes,
+              const Points                          &field)
+{
+  std::array<std::decay_t<decltype(field[0])>, dim - 1> t;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    for (int i = 0; i < dim - 1; ++i)
+      t[i] += values.gradient[k][i] * field[nodes[k]];
+  return t;
+}
 
-/// Return the outward area vector: t1 x t2 in 3D, (t_y, -t_x) in 2D.
-dealii::Tensor<1, 2> area_vector(const std::array<dealii::Tensor<1, 2>, 1> &t);
-dealii::Tensor<1, 3> area_vector(const std::array<dealii::Tensor<1, 3>, 2> &t);
+/// Return the outward area vector: (t_y, -t_x), which is t rotated by -90 degrees, in 2D. Faces are
+/// oriented such that this vector, or t1 x t2 in 3D, points out of the body.
+template <typename Number>
+dealii::Tensor<1, 2, Number> area_vector(const std::array<dealii::Tensor<1, 2, Number>, 1> &t)
+{
+  return dealii::cross_product_2d(t[0]);
+}
+
+/// Return the outward area vector t1 x t2.
+template <typename Number>
+dealii::Tensor<1, 3, Number> area_vector(const std::array<dealii::Tensor<1, 3, Number>, 2> &t)
+{
+  return dealii::cross_product_3d(t[0], t[1]);
+}
 
 /// Return the derivative of area_vector() at @p t along @p dt.
 dealii::Tensor<1, 2> area_vector_derivative(const std::array<dealii::Tensor<1, 2>, 1> &t,

@@ -11,9 +11,9 @@ template <int dim>
 using HeldDirections = std::vector<std::vector<dealii::Tensor<1, dim>>>;
 
 /// Return @p v without its components along @p held.
-template <int dim>
-dealii::Tensor<1, dim> free_part(dealii::Tensor<1, dim>                     v,
-                                 const std::vector<dealii::Tensor<1, dim>> &held)
+template <int dim, typename Number>
+dealii::Tensor<1, dim, Number> free_part(dealii::Tensor<1, dim, Number>             v,
+                                         const std::vector<dealii::Tensor<1, dim>> &held)
 {
   for (const auto &q : held)
     v -= (v * q) * q;

@@ -2,6 +2,7 @@
 #define snug_faces_tributary_h
 
 #include <snug/faces/face_shape.h>
+#include <snug/faces/point_field.h>
 
 namespace snug::faces {
 /// Faces over which areas are integrated.

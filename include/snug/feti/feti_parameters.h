@@ -26,7 +26,9 @@ enum class Preconditioner
 };
 inline Names names(Preconditioner)
 {
-  return {{"Dirichlet"}, {"lumped"}, {"none"}};
+  return {{"Dirichlet", "Schur complements of the subdomains, with the fewest iterations"},
+          {"lumped", "stiffness of the interface nodes, with cheaper iterations"},
+          {"none", "identity, for comparison"}};
 }
 
 enum class Scaling
@@ -36,7 +38,8 @@ enum class Scaling
 };
 inline Names names(Scaling)
 {
-  return {{"stiffness"}, {"multiplicity"}};
+  return {{"stiffness", "stiffness of each copy, for bodies of different moduli"},
+          {"multiplicity", "reciprocal of the number of copies"}};
 }
 
 enum class SoftModesOf
@@ -47,7 +50,9 @@ enum class SoftModesOf
 };
 inline Names names(SoftModesOf)
 {
-  return {{"auto"}, {"all"}, {"none"}};
+  return {{"auto", "all subdomains if a subdomain or its cells are stretched, otherwise none"},
+          {"all", "all subdomains"},
+          {"none", "no subdomains"}};
 }
 
 /// Entries of `subsection Solver` that Total FETI reads.

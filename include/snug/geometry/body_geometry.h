@@ -7,11 +7,9 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
-#include <deal.II/grid/cell_id.h>
 
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -125,9 +123,6 @@ struct BodyMeshParameters
   /// formula of x, y, z; cells are refined where the formula is positive
   std::string  refine_where;
   unsigned int local_refinements = 0;
-  /// Further cells of all bodies that have children, together with all their ancestors; null: no
-  /// further cells. Not an entry.
-  std::shared_ptr<const std::set<dealii::CellId>> refined;
 
   void declare(Entries &entries);
   /// Set empty lists to their defaults.

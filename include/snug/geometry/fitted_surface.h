@@ -24,7 +24,7 @@ struct SurfaceSample
   double largest_distance(const KnownSurface<dim> &surface) const;
 
   /// Return @p surface with the member convex set according to the normals.
-  KnownSurface<dim> faced(KnownSurface<dim> surface) const;
+  KnownSurface<dim> oriented(KnownSurface<dim> surface) const;
 };
 
 /// Return (A + 1e-14 tr(A) I)^-1 for the matrix @p A of normal equations, which may be singular.
@@ -39,17 +39,6 @@ dealii::FullMatrix<double> inverse_of_squares(dealii::FullMatrix<double> A);
 template <int dim>
 KnownSurface<dim> fitted_round(const SurfaceSample<dim>     &sample,
                                const dealii::Tensor<1, dim> &axis);
-
-/**
- * Return the surface of the entry "Curved faces = boundary: value", where @p value is "sphere" or,
- * in 3D, "cylinder AXIS" with the axis x, y or z. In 2D both are circles, and the axis is z.
- * @throws InputError naming the entry if @p value has none of these forms, the distance of a point
- *   from the surface exceeds 1e-4 R, or R is so large that the surface is nearly plane.
- */
-template <int dim>
-KnownSurface<dim> fitted_surface(const std::string        &boundary,
-                                 const std::string        &value,
-                                 const SurfaceSample<dim> &sample);
 
 /// Return the first of sphere, cylinder, cone and torus from which no point is farther than
 /// @p tolerance. A surface is not tried with fewer points than 3/2 of the number of its unknowns.

@@ -11,7 +11,7 @@
 namespace snug::geometry {
 /// Surfaces to which a point is moved, and planes within which the point moves.
 template <int dim>
-struct Guides
+struct GeometryConstraints
 {
   std::vector<KnownSurface<dim>>      surfaces;
   std::vector<dealii::Tensor<1, dim>> planes; ///< unit normals
@@ -37,8 +37,8 @@ public:
 };
 
 /// The curve from a to b, x(t) = (1 - t) a + t b + t (1 - t) ((1 - t) c_0 + t c_1), moved onto the
-/// guides. A quadratic curve has c_0 = c_1 = 4 m, where m is the offset of the middle node from the
-/// middle of the straight edge.
+/// constraints. A quadratic curve has c_0 = c_1 = 4 m, where m is the offset of the middle node
+/// from the middle of the straight edge.
 template <int dim>
 class Curve : public Patch<dim>
 {
@@ -46,8 +46,11 @@ public:
   using Point  = dealii::Point<dim>;
   using Vector = dealii::Tensor<1, dim>;
 
-  Curve(const Point &a, const Point &b, const std::array<Vector, 2> &c, Guides<dim> guides = {})
-    : a(a), b(b), c(c), guides(std::move(guides))
+  Curve(const Point                 &a,
+        const Point                 &b,
+        const std::array<Vector, 2> &c,
+        GeometryConstraints<dim>     constraints = {})
+    : a(a), b(b), c(c), constraints(std::move(constraints))
   {}
 
   Point position(const dealii::Point<2> &at) const override;
@@ -56,9 +59,9 @@ public:
   Vector offset(double t) const;
 
 private:
-  Point                 a, b;
-  std::array<Vector, 2> c;
-  Guides<dim>           guides;
+  Point                    a, b;
+  std::array<Vector, 2>    c;
+  GeometryConstraints<dim> constraints;
 };
 
 /**

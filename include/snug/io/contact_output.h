@@ -43,11 +43,11 @@ public:
   /// Mesh and contact of a state.
   struct Sources
   {
-    const mesh::BodyMesh<dim>              &mesh;
-    const mesh::Surface<dim>               &surface;
-    const std::vector<contact::JoinedPair> &pairs;
-    const std::vector<contact::RowPlace>   &places;
-    const std::vector<contact::SharedNode> &shared_nodes;
+    const mesh::BodyMesh<dim>                       &mesh;
+    const mesh::Surface<dim>                        &surface;
+    const std::vector<contact::JoinedPair>          &pairs;
+    const std::vector<contact::RowPlace>            &places;
+    const std::vector<contact::DependentMultiplier> &dependent_multipliers;
   };
 
   /// Files go to the directory @p directory, which must exist.

@@ -1,7 +1,7 @@
 #ifndef snug_mesh_body_mesh_h
 #define snug_mesh_body_mesh_h
 
-#include <snug/geometry/coarse_cells.h>
+#include <snug/mesh/forest.h>
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/interior_faces.h>
 #include <snug/mesh/partition.h>
@@ -12,9 +12,14 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace snug::mesh {
+/// A vector at each local node of a mesh, or at each of its points.
+template <int dim>
+using Field = std::vector<dealii::Tensor<1, dim>>;
+
 /**
  * The mesh of all bodies on this rank. This class holds the nodes of one triangulation (scalar
  * degrees of freedom of FE_Q(degree); displacement component c of node a is
@@ -34,7 +39,7 @@ template <int dim>
 class BodyMesh
 {
 public:
-  using Field = std::vector<dealii::Tensor<1, dim>>; ///< per local node or point
+  using Field = mesh::Field<dim>;
 
   struct Cell
   {
@@ -69,7 +74,16 @@ public:
     std::vector<std::pair<unsigned int, double>> masters;
   };
 
-  /// Make the mesh. Collective. @throws InputError for bad mesh entries.
+  /// Make the mesh of the cells of a forest. Without @p tearing, the cells stay on the ranks on
+  /// which p4est has them and all parts are 0: such a mesh is cheap and has all faces and points,
+  /// but it cannot be torn, and cell_neighbours() and interior_faces() are empty. Collective.
+  /// @throws InputError for bad mesh entries.
+  BodyMesh(const Forest<dim>                      &forest,
+           unsigned int                            degree,
+           const Idealization                     &idealization,
+           const std::optional<TearingParameters> &tearing);
+
+  /// Make the mesh of bodies. Collective. @throws InputError for bad mesh entries.
   BodyMesh(MPI_Comm                                         communicator,
            const std::vector<geometry::BodyMeshParameters> &bodies,
            unsigned int                                     degree,
@@ -80,8 +94,11 @@ public:
   unsigned int degree() const { return fe_degree; }
   /// Return the solid or the section of a solid that the mesh represents.
   const Idealization                &idealization() const { return meaning; }
-  unsigned int                       n_bodies() const { return geometries.size(); }
-  const geometry::BodyGeometry<dim> &geometry(unsigned int body) const { return *geometries[body]; }
+  unsigned int                       n_bodies() const { return geometries->size(); }
+  const geometry::BodyGeometry<dim> &geometry(unsigned int body) const
+  {
+    return *(*geometries)[body];
+  }
 
   const std::vector<Cell>    &cells() const { return mesh_cells; }
   const std::vector<Face>    &boundary_faces() const { return mesh_faces; }
@@ -138,7 +155,7 @@ public:
   /// interpolate this position between nodes.
   dealii::Point<dim> true_position(unsigned int cell, const dealii::Point<dim> &unit) const
   {
-    return geometries[mesh_cells[cell].body]->position(places.point(cell_ids[cell], unit));
+    return geometry(mesh_cells[cell].body).position(places.point(cell_ids[cell], unit));
   }
 
   /// Return the pairs of owned cells (a < b) that share a face or part of a face.
@@ -147,11 +164,11 @@ public:
 private:
   struct Source;
 
-  MPI_Comm                                                  comm;
-  unsigned int                                              fe_degree;
-  Idealization                                              meaning;
-  std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>> geometries;
-  geometry::CoarseCells<dim>                                places; ///< of the coarse cells
+  MPI_Comm                               comm;
+  unsigned int                           fe_degree;
+  Idealization                           meaning;
+  std::shared_ptr<const Geometries<dim>> geometries;
+  geometry::CoarseCells<dim>             places; ///< of the coarse cells
   // Owned and ghost nodes. A local index is the position of the node in this set.
   dealii::IndexSet          relevant;
   std::vector<unsigned int> first_node_of_rank; ///< n_ranks + 1
@@ -172,10 +189,7 @@ private:
   std::vector<std::vector<double>> sample_weights;
   unsigned long                    n_cells = 0, n_free_nodes = 0;
 
-  void triangulate(const std::vector<geometry::BodyMeshParameters> &bodies,
-                   const TearingParameters                         &tearing,
-                   Source                                          &source);
-  void number_nodes(Source &source);
+  void number_nodes(const Source &source);
   void collect_nodes(const Source &source);
   void collect_hanging(const Source &source);
   void collect_cells(const Source &source);

@@ -1,8 +1,8 @@
 #ifndef snug_mesh_distribute_h
 #define snug_mesh_distribute_h
 
+#include <snug/mesh/forest.h>
 #include <snug/mesh/parts.h>
-#include <snug/mesh/triangulate.h>
 
 #include <deal.II/distributed/fully_distributed_tria.h>
 

@@ -61,12 +61,12 @@ struct Idealization
 
 inline Names names(Idealization::Kind)
 {
-  return {{"solid", "3D"},
-          {"plane strain", "2D section of a body that cannot strain across it"},
-          {"plane stress", "2D section of a sheet without stress across it"},
+  return {{"solid", "3D body"},
+          {"plane strain", "2D section of a body without strain across the section"},
+          {"plane stress", "2D section of a sheet without stress across the section"},
           {"axisymmetric",
-           "2D section x >= 0 of a body of revolution, x the radius and y the axis; forces, "
-           "energies and volumes are those of the full revolution"}};
+           "2D section x >= 0 of a body of revolution, with the radius x and the axis y. Forces, "
+           "energies and volumes refer to the full revolution."}};
 }
 } // namespace snug::mesh
 

@@ -26,7 +26,7 @@ struct TearingParameters
   /// cells; not an entry
   bool at_least_ranks = true;
   /// bodies whose subdomains by size are larger, see larger_subdomains(); not an entry
-  std::vector<bool> nearly_incompressible;
+  std::vector<bool> nearly_incompressible = {};
 
   void declare(Entries &entries);
 };

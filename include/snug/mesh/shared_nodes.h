@@ -19,8 +19,7 @@ void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
 
 /// Return a nodal field with the values of the owners of the nodes at all local nodes. Collective.
 template <int dim>
-typename BodyMesh<dim>::Field owners_values(const BodyMesh<dim>                 &mesh,
-                                            const typename BodyMesh<dim>::Field &field);
+Field<dim> owners_values(const BodyMesh<dim> &mesh, const Field<dim> &field);
 } // namespace snug::mesh
 
 #endif

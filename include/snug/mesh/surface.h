@@ -55,10 +55,10 @@ public:
   }
 
   /// Return the values of a mesh field at the nodes or points of the surface. Collective.
-  Field gather(const typename BodyMesh<dim>::Field &field) const;
+  Field gather(const mesh::Field<dim> &field) const;
   /// Add a surface field to a field of nodes or points, at the nodes and samples that this rank
   /// owns (hanging nodes included). A sum over ranks thus contains each value once.
-  void add_owned(const Field &surface_field, typename BodyMesh<dim>::Field &field) const;
+  void add_owned(const Field &surface_field, mesh::Field<dim> &field) const;
   /// Return the cells of this rank, as indices of BodyMesh::cells(), that have one of the @p faces.
   std::vector<unsigned int> cells_of(const std::vector<unsigned int> &faces) const;
   /// Return the (surface, local) numbers of the samples on this rank.

@@ -8,8 +8,8 @@
 #include <set>
 
 namespace snug::mesh_file {
-/// A face of a cell at the boundary, before cells are split: an edge in 2D, else a triangle or a
-/// quadrilateral. Corners go round as those of faces_of().
+/// A face of a cell at the boundary, before cells are split: an edge in 2D, a triangle or a
+/// quadrilateral in 3D. The corners have the order of faces_of().
 struct Facet
 {
   std::vector<unsigned int> corners;
@@ -17,9 +17,10 @@ struct Facet
 };
 
 /**
- * The surface of a body as facets, and its smooth parts. Parts are divided by features: where
- * boundaries meet, facets turn by more than 30 degrees, or their number is not two. What two
- * facets share is a ridge: a node in 2D, an edge in 3D.
+ * This class stores the surface of a body as facets, and divides the surface into smooth parts. Two
+ * facets share a ridge, which is a node in 2D and an edge in 3D. A ridge is a feature, and divides
+ * parts, if two boundaries meet there, the facets meet at more than 30 degrees, or the number of
+ * facets is not two.
  */
 template <int dim>
 class BodySurface
@@ -30,11 +31,11 @@ public:
   using Vector  = dealii::Tensor<1, dim>;
   using Middles = std::map<Corners, unsigned int>;
 
-  /// @p middles as in MeshFile. Kinks within the boundaries @p whole are no features.
+  /// The @p middles are those of MeshFile. Ridges within the boundaries @p smooth are no features.
   BodySurface(std::vector<Point>            points,
               Middles                       middles,
               std::vector<Facet>            facets,
-              const std::set<unsigned int> &whole);
+              const std::set<unsigned int> &smooth);
 
   std::vector<Point>       points;
   const Middles            middles;
@@ -46,36 +47,37 @@ public:
     bool                      is_feature = false;
   };
 
-  std::map<Corners, Ridge>                          ridges;    ///< by corners, ascending
+  std::map<Corners, Ridge>                          ridges;    ///< by corners, in ascending order
   std::map<unsigned int, std::vector<unsigned int>> facets_at; ///< by node
-  std::vector<std::vector<unsigned int>>            parts;     ///< facets of each
-  std::vector<unsigned int>                         part_of;   ///< facets
-  /// facets in plane regions of several facets, which stay as they are
+  std::vector<std::vector<unsigned int>>            parts;     ///< facets of each part
+  std::vector<unsigned int>                         part_of;   ///< part of each facet
+  /// whether a facet is in a plane region of several facets, which is not changed
   std::vector<bool> is_flat;
 
-  /// Of a facet, each in ascending order.
+  /// Return the ridges or the edges of a facet. The corners of each are in ascending order.
   std::vector<Corners> ridges_of(unsigned int facet) const;
   std::vector<Corners> edges(unsigned int facet) const;
 
-  /// Whether the facet is of a quadratic element.
+  /// Return whether the facet belongs to a quadratic element.
   bool is_quadratic(unsigned int facet) const;
 
-  /// Coefficients of its Curve from the lower corner, as quadratic elements have them.
+  /// Return the coefficients of the Curve of a quadratic element along @p edge, or 0 for a straight
+  /// edge.
   std::array<Vector, 2> quadratic(const Corners &edge) const;
 
-  /// Unit normal out of the body in the middle of a facet's straight edges.
+  /// Return the outward unit normal of the body at the centre of a facet with straight edges.
   Vector normal(unsigned int facet) const;
 
   Point centre(unsigned int facet) const;
 
-  /// Angle by which the surface turns there [degrees].
+  /// Return the angle between the normals of the two facets at @p ridge [degrees].
   double kink(const Corners &ridge) const;
 
 private:
-  double size = 0.; ///< of the body
+  double size = 0.; ///< size of the body [length]
 
   Vector normal_at(unsigned int facet, const Corners &ridge) const;
-  bool   stands_out(const Corners &ridge, const std::set<unsigned int> &whole) const;
+  bool   stands_out(const Corners &ridge, const std::set<unsigned int> &smooth) const;
   void   divide();
   void   find_flats();
 };

@@ -6,7 +6,7 @@
 #include <snug/mesh_file/element_split.h>
 
 namespace snug::mesh_file {
-/// The cells of a body, and how they were split; null: not.
+/// The cells of a body, and the split of the cells; null: not split.
 struct SplitCells
 {
   const std::vector<MeshFile::Element> &cells;
@@ -21,12 +21,13 @@ struct SplitCells
 };
 
 /**
- * Make edges and faces of the blocks of @p mesh pieces of the true surface, and put the middles of
- * split elements among its vertices onto it. Quadratic elements have their own middles inside as
- * well. Facets of a triangle that was split are bilinear in its coordinates.
+ * Make edges and faces of the blocks of @p mesh pieces of the true surface, and move the middles of
+ * split elements to the true surface. The interior middles of quadratic elements are moved as well.
+ * The parts of a split triangle are bilinear in the coordinates of the triangle.
  *
- * Where the scaled Jacobian of a block falls below 0.2 of what it was, its curves and patches are
- * brought halfway back to the straight ones, repeatedly; @p notes say so.
+ * Where the scaled Jacobian of a block is below 0.2 of its value with straight edges, the curves
+ * and patches of the block are moved halfway towards the straight ones, repeatedly. @p notes
+ * contain their number.
  */
 template <int dim>
 void curve_blocks(geometry::BlockMesh<dim> &mesh,

@@ -5,9 +5,10 @@
 
 namespace snug::mesh_file {
 /**
- * Curves and patches of the true surface of a body. Edges between two facets of a shape lie on
- * it. On features they lie where two shapes meet; where one of them is smooth or quadratic, they
- * are cubic curves through the nodes of the feature, the same for both sides.
+ * This class computes the curves and patches of the true surface of a body. An edge between two
+ * facets of one shape lies on the shape. An edge on a feature lies on the intersection of two
+ * shapes. If one of the shapes is smooth or quadratic, then the edge is a cubic curve through the
+ * nodes of the feature, which is equal for both sides.
  */
 template <int dim>
 class CurvedBoundary
@@ -20,12 +21,13 @@ public:
   /// @p surface and @p shapes must outlive this object.
   CurvedBoundary(const BodySurface<dim> &surface, const SurfaceShapes<dim> &shapes);
 
-  /// By edges of elements, corners ascending; from the first to the second. Others are straight.
+  /// Curves by edges of elements, with the corners in ascending order, from the first corner to the
+  /// second. All other edges are straight.
   std::map<Corners, std::shared_ptr<geometry::Curve<dim>>> curves;
-  /// By facets; in 2D the curves. Null: straight.
+  /// patches by facets, in 2D the curves; null: straight
   std::vector<std::shared_ptr<geometry::Patch<dim>>> patches;
 
-  /// Whether a facet lies to rounding on the known surface it is of.
+  /// Return whether a facet lies up to rounding on its known surface.
   bool is_on_known(unsigned int facet) const;
 
 private:
@@ -33,19 +35,20 @@ private:
 
   const BodySurface<dim>                      &surface;
   const SurfaceShapes<dim>                    &shapes;
-  std::map<unsigned int, std::vector<Corners>> chains; ///< edges of curves, by node
-  /// of part and node
+  std::map<unsigned int, std::vector<Corners>> chains; ///< node -> edges of curves
+  /// {part, node} -> normal
   std::map<std::pair<unsigned int, unsigned int>, Vector> normals;
 
-  void                      find_chains();
-  const Corners            *next(const Corners &edge, unsigned int node) const;
-  bool                      is_straight(const Corners &edge) const;
-  std::vector<unsigned int> facets_of(const Corners &edge) const;
-  std::vector<Point>        walk(const Corners *edge, unsigned int node) const;
-  Vector                    tangent(const Corners &edge, unsigned int node) const;
-  Vector                    normal(unsigned int part, unsigned int node);
-  std::array<Vector, 2>     coefficients(const Corners &edge, const geometry::Guides<dim> &guides);
-  void                      add_curve(const Corners &edge);
+  void                                  find_chains();
+  const Corners                        *next(const Corners &edge, unsigned int node) const;
+  bool                                  is_straight(const Corners &edge) const;
+  std::vector<unsigned int>             facets_of(const Corners &edge) const;
+  std::vector<Point>                    walk(const Corners *edge, unsigned int node) const;
+  Vector                                tangent(const Corners &edge, unsigned int node) const;
+  Vector                                normal(unsigned int part, unsigned int node);
+  std::array<Vector, 2>                 coefficients(const Corners                            &edge,
+                                                     const geometry::GeometryConstraints<dim> &constraints);
+  void                                  add_curve(const Corners &edge);
   std::shared_ptr<geometry::Patch<dim>> patch(unsigned int facet) const;
 };
 template <>

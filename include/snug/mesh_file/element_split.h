@@ -4,37 +4,37 @@
 #include <snug/mesh_file/mesh_file.h>
 
 namespace snug::mesh_file {
-/// For each corner of an element that has as many edges as the element
-/// has dimensions: their other ends, right-handed. Empty for pyramids.
+/// Return the adjacent corners of each corner, in right-handed order. Return an empty list for
+/// pyramids, because four edges meet at their tips.
 const std::vector<std::vector<unsigned int>> &corner_neighbours(ElementShape shape);
 
-/// Corners of the faces of an element, of flat ones its edges, in Abaqus' order (S1, S2, ...). They
-/// go round such that the normal by the right-hand rule points into the element, which lies to the
-/// left of the edges of a flat one. None for pyramids.
+/// Return the corners of each face of an element, or of each edge of a plane element, in the order
+/// of Abaqus (S1, S2, ...). The normal of a face by the right-hand rule points into the element. A
+/// plane element lies to the left of its edges. The list is empty for pyramids.
 const std::vector<std::vector<unsigned int>> &faces_of(ElementShape shape);
 
-/// Whether all elements of the shape are lines, quadrilaterals or
-/// hexahedra, the shapes of cells and their faces.
+/// Return whether the shape is a line, a quadrilateral or a hexahedron, the shapes of cells and of
+/// their faces.
 bool is_cell_shape(ElementShape shape);
 
-/// Corners in deal.II's order. Only for cell shapes.
+/// Return the corners in the order of deal.II. The shape must be a cell shape.
 std::vector<unsigned int> cell_vertices(const MeshFile::Element &element);
 
 /**
- * Splits elements into lines, quadrilaterals or hexahedra, one at each
- * corner, between the middles of edges, faces and the element. Elements
- * that share faces still do.
+ * This class splits elements into lines, quadrilaterals or hexahedra, one at each corner, between
+ * the middles of edges, faces and the element. Parts of elements that share a face also share
+ * faces.
  */
 class ElementSplit
 {
 public:
-  /// New points go to the end of @p points, which must outlive this object.
+  /// New points are added at the end of @p points, which must outlive this object.
   explicit ElementSplit(std::vector<dealii::Point<3>> &points) : points(points) {}
 
-  /// Vertices of the parts in deal.II's order.
+  /// Return the vertices of the parts in the order of deal.II.
   std::vector<std::vector<unsigned int>> parts(const MeshFile::Element &element);
 
-  /// Index of the middle of the points with these indices.
+  /// Return the index of the mean of the points with these indices.
   unsigned int middle(std::vector<unsigned int> corners);
 
 private:

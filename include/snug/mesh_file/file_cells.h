@@ -6,19 +6,18 @@
 
 namespace snug::mesh_file {
 /**
- * The elements of a file that make a body: those of dimension dim in one
- * of the @p regions (empty: all), right-handed. What was turned or left out
- * is added to @p notes.
+ * Return the elements of a body: the elements of dimension dim in one of the @p regions (empty:
+ * all), right-handed. A line about renumbered elements is added to @p notes.
  *
- * @throws InputError if there are none, some do not lie in the plane (2D),
- *   are pyramids or inverted.
+ * @throws InputError if there are no such elements, or an element is a pyramid, inverted or, in 2D,
+ *   outside of the plane.
  */
 template <int dim>
 std::vector<MeshFile::Element> body_cells(const MeshFile                 &file,
                                           const std::vector<std::string> &regions,
                                           std::vector<std::string>       &notes);
 
-/// "line 17: element 4 message".
+/// Return the error "line 17: element 4 message".
 InputError element_error(const MeshFile::Element &element, const std::string &message);
 } // namespace snug::mesh_file
 

@@ -5,20 +5,17 @@
 
 namespace snug::mesh_file {
 /**
- * Make cells of the contents @p text of a mesh file:
+ * Return the cells and boundaries of the mesh file with the content @p text:
  *
- * - elements of the dimension @p dim in the wanted regions; if triangles,
- *   tetrahedra or prisms are among them, each is split at the middles of
- *   its edges, faces and itself into quadrilaterals or hexahedra, and all
- *   others with them; so are hexahedra whose edges cannot be given common
- *   directions, see order_consistently();
- * - groups of elements one dimension lower are the boundaries; boundary
- *   faces without a group are called free;
- * - boundaries that lie on spheres or cylinders, as the entry Curved faces
- *   says, are fitted to them, and stay so when refined.
+ * - The cells are the elements of the dimension @p dim in the wanted regions. If they contain
+ *   triangles, tetrahedra or prisms, then all elements are split into quadrilaterals or hexahedra
+ *   at the middles of edges, faces and elements. Hexahedra are also split if their edges cannot be
+ *   given consistent directions, see order_consistently().
+ * - The boundaries are the groups of elements one dimension lower. Boundary faces without a group
+ *   are called free.
+ * - Boundaries are parts of the true surface (SurfaceShapes), also when cells are refined.
  *
- * @throws InputError naming an entry and, for what is wrong in the file,
- *   its line and element.
+ * @throws InputError with the entry and, for an error of the file, with line and element.
  */
 std::shared_ptr<const geometry::ImportedMesh>
 import_mesh(const std::string                  &text,

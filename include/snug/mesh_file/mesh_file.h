@@ -8,8 +8,7 @@
 #include <vector>
 
 namespace snug::mesh_file {
-/// Shapes of elements. Corners are numbered as in VTK: around the
-/// bottom, then around the top.
+/// Shapes of elements. Corners are numbered around the bottom, then around the top.
 enum class ElementShape
 {
   vertex,
@@ -26,36 +25,36 @@ unsigned int dimension(ElementShape shape);
 
 unsigned int n_corners(ElementShape shape);
 
-/// "triangles" and so on.
-std::string plural(ElementShape shape);
-
-/// What a mesh file holds.
+/// This struct stores the content of a mesh file.
 struct MeshFile
 {
   struct Element
   {
     ElementShape              shape;
     std::vector<unsigned int> corners; ///< indices into points
-    /// names or numbers of the groups it is in; the last one counts
+    /// names or numbers of the groups that contain the element, in the order of the file
     std::vector<std::string> groups;
-    unsigned long            number; ///< as the file counts
-    unsigned long            line;   ///< of the file; 0 if it is binary
+    unsigned long            number; ///< number of the element in the file
+    unsigned long            line;   ///< line of the file; 0 if the file is binary
   };
 
   std::vector<dealii::Point<3>> points;
   std::vector<Element>          elements;
-  /// Groups the file tells only by number, for lack of a name.
+  /// groups that have a number, but no name in the file
   std::map<std::string, bool> unnamed;
-  /// Points in the middle of edges and quadrilaterals of quadratic elements, by the corners of
-  /// these in ascending order.
+  /// Middle nodes of quadratic elements: corners of an edge or a quadrilateral in ascending order
+  /// -> the point in its middle
   std::map<std::vector<unsigned int>, unsigned int> middles;
 };
 
+/// Return the numbers of elements of each shape but points, such as "4 lines, 2 triangles and 1
+/// quadrilateral"; empty if all elements are points.
+std::string count_shapes(const std::vector<MeshFile::Element> &elements);
+
 /**
- * Read the contents of a mesh file: Gmsh .msh 2 and 4.1 (ASCII, binary),
- * Abaqus .inp, VTK legacy (unstructured grid) or UCD (ASCII), told
- * by how they begin.
- * @throws InputError: "line 17: what is wrong".
+ * Read the contents of a mesh file: Gmsh .msh 2 and 4.1 (ASCII, binary) or Abaqus .inp. The first
+ * word of the text determines the format.
+ * @throws InputError "line 17: message".
  */
 MeshFile read_mesh_file(const std::string &text);
 } // namespace snug::mesh_file

@@ -4,62 +4,53 @@
 #include <snug/mesh_file/mesh_file.h>
 
 namespace snug::mesh_file {
-/// @name Readers of file formats @throws InputError: "line 17: ..."
+/// @name Readers of file formats @throws InputError "line 17: message"
 /// @{
 
-/// Gmsh .msh 2 and 4.1; groups are the physical ones. Source: Gmsh
-/// reference manual, file formats.
+/// Read Gmsh .msh 2 and 4.1. The groups are the physical groups. Source: Gmsh reference manual,
+/// file formats.
 MeshFile read_gmsh(const std::string &text);
 
 /**
- * Abaqus .inp; groups are the element surfaces and the element sets but for
- * those Abaqus/CAE makes, whose names begin with _. One part, not moved;
- * keywords that generate or move nodes or elements are errors, others than
- * NODE, ELEMENT, ELSET and SURFACE are skipped. Source: Abaqus keywords
- * reference.
+ * Read Abaqus .inp. The groups are the element surfaces, and the element sets except the sets of
+ * Abaqus/CAE, whose names begin with _. The file has one part, which no instance moves. Keywords
+ * that generate or move nodes or elements are errors. Keywords other than NODE, ELEMENT, ELSET and
+ * SURFACE are skipped. Source: Abaqus keywords reference.
  */
 MeshFile read_abaqus(const std::string &text);
-
-/// VTK legacy file of an unstructured grid, ASCII or binary; groups are the
-/// numbers of the cell data MaterialID or CellEntityIds. Source: VTK file
-/// formats.
-MeshFile read_vtk(const std::string &text);
-
-/// UCD of AVS in ASCII; groups are the material numbers.
-MeshFile read_ucd(const std::string &text);
 /// @}
 
-/// Of the nodes of a quadratic element that follow its corners: the corners of the edge, face or
-/// element in whose middle each of them lies.
+/// For each node of a quadratic element that follows the corners: the corners of the edge, face or
+/// element in whose middle the node lies.
 using MiddleOrder = std::vector<std::vector<unsigned int>>;
 
-/// The order of VTK and, for elements of up to 20 nodes, of Abaqus; that of Gmsh.
-const MiddleOrder &vtk_middles(ElementShape shape);
+/// Return the order of the nodes in Abaqus or in Gmsh.
+const MiddleOrder &abaqus_middles(ElementShape shape);
 const MiddleOrder &gmsh_middles(ElementShape shape);
 
-/// Of the @p nodes of an element, corners first, add the corners to @p element and the others to
-/// the middles of the mesh.
+/// Store the @p nodes of an element. The corners, which come first, are stored in @p element, and
+/// the other nodes in the middles of @p mesh.
 void add_nodes(MeshFile                        &mesh,
                MeshFile::Element               &element,
                const std::vector<unsigned int> &nodes,
                const MiddleOrder               &order);
 
-/// What the elements of a type of a format are; quadratic ones have more nodes than corners.
+/// An element type of a format. Quadratic elements have more nodes than corners.
 struct ElementType
 {
   ElementShape shape;
   unsigned int n_nodes;
 };
 
-/// Points by the numbers a file gives them.
+/// This class maps the numbers of nodes in a file to indices of points.
 class PointNumbers
 {
 public:
-  /// @throws InputError if the number occurred before.
+  /// Add the next point of the file. @throws InputError if the number occurred before.
   void add(unsigned long number, unsigned long line);
 
-  /// Index of the point; @p element is for the message.
-  /// @throws InputError if there is none.
+  /// Return the index of the point with this number. The error message contains the name @p element
+  /// of the element that needs the point. @throws InputError if there is no such point.
   unsigned int index(unsigned long number, const std::string &element, unsigned long line) const;
 
 private:

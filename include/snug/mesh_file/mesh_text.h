@@ -10,42 +10,42 @@
 #include <vector>
 
 namespace snug::mesh_file {
-/// Contents of a mesh file, read from front to end. All functions throw
-/// InputErrors that name the line.
+/// This class reads the text of a mesh file from beginning to end. All functions throw InputErrors
+/// that contain the line.
 class MeshText
 {
 public:
   /// @p text must outlive this object.
   explicit MeshText(const std::string &text) : text(text) {}
 
-  /// Number of the line that is read, from 1; 0 if lines mean nothing.
+  /// Return the number of the current line, from 1, or 0 in a binary file.
   unsigned long line() const { return binary ? 0 : line_number; }
 
-  /// Lines mean nothing.
+  /// Treat the text as binary, without line numbers.
   void be_binary() { binary = true; }
 
-  /// Whether nothing but blanks follows, which are skipped.
+  /// Skip blanks, and return whether the text ends behind them.
   bool at_end();
 
-  /// Whether the text goes on with @p word, on this line or a later one.
-  bool is_next(const std::string &word) const;
-
-  /// The rest of the line, without blanks at its ends.
+  /// Return the rest of the line, without blanks at its ends.
   std::string rest_of_line();
 
-  /// The next word on this or a later line; @p what is expected.
+  /// Return the next word on this or a later line. If there is none, the message says that @p what
+  /// is expected.
   std::string word(const std::string &what);
-  double      number(const std::string &what);
-  /// A whole number, 0 or larger.
+  /// Return the next word as a finite number.
+  double number(const std::string &what);
+  /// Return the next word as an integer >= 0.
   unsigned long whole(const std::string &what);
 
-  /// A value as it lies in memory; reals must be finite.
+  /// Return the next value of a binary file. @throws InputError if it is not finite.
   template <typename T>
   T raw(const std::string &what);
 
-  /// Go on behind the next @p mark. @throws if there is none.
+  /// Move to the end of the next @p mark. @throws InputError if there is none.
   void skip_behind(const std::string &mark);
 
+  /// Throw the error "line 17: message" of the current line.
   [[noreturn]] void fail(const std::string &message) const;
 
 private:
@@ -58,16 +58,17 @@ private:
   void              advance(std::size_t to);
 };
 
-/// "line 17: message", or only the message if there is no line.
+/// Return the error "line 17: message", or only the message if @p line is 0.
 InputError error_at_line(unsigned long line, const std::string &message);
 
-/// @p text as a message may show it: the file may be binary, and a word of it huge.
+/// Return @p text shortened and without control characters, because a file may be binary and may
+/// contain words of any length.
 std::string printable(std::string text);
 
-/// Trimmed parts of a line between commas.
+/// Return the parts of a line between commas, without blanks at their ends.
 std::vector<std::string> comma_list(const std::string &line);
 
-/// @p word as a number, or an error at @p line.
+/// Return @p word as a finite number, or as an integer >= 0. @throws InputError at @p line.
 double        to_number(const std::string &word, unsigned long line);
 unsigned long to_whole(const std::string &word, unsigned long line);
 
@@ -81,7 +82,7 @@ T MeshText::raw(const std::string &what)
   place += sizeof(T);
   if constexpr (std::is_floating_point_v<T>)
     if (!std::isfinite(value))
-      fail(what + " is no number");
+      fail(what + " is not finite");
   return value;
 }
 } // namespace snug::mesh_file

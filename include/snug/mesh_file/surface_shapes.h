@@ -7,16 +7,16 @@
 
 namespace snug::mesh_file {
 /**
- * What each part of the surface of a body is, the first of these that applies:
- * - what "Curved faces" says of its boundary;
- * - facets, if "Surface" says so;
- * - a plane, if its nodes lie in one;
- * - facets, with a note, if these turn by more than 15 degrees and are not quadratic;
- * - a sphere, cylinder, cone or torus on which all of its nodes lie, to 1e-6 of its size or the
- *   last digit of the file;
- * - of the shape of its elements, if these are quadratic;
- * - smooth.
- * The fourth and the last but one do not count where "Surface" says smooth.
+ * This class determines the shape of each part of the surface of a body, which is the first of
+ * these that applies:
+ * - facets, if the entry "Surface" requires facets;
+ * - a plane, if all nodes lie in a plane;
+ * - facets, with a note, if facets meet at more than 15 degrees and are not quadratic;
+ * - a sphere, cylinder, cone or torus on which all nodes lie, with a tolerance of 1e-6 of the size
+ * of the part or the last digit of the file;
+ * - the shape of the elements, if these are quadratic;
+ * - a smooth surface.
+ * Where "Surface" requires a smooth surface, the third and the fifth do not apply.
  */
 template <int dim>
 class SurfaceShapes
@@ -40,12 +40,12 @@ public:
   struct Shape
   {
     Kind         kind        = Kind::facets;
-    unsigned int known_index = none; ///< into known()
-    Vector       normal;             ///< of a plane
+    unsigned int known_index = none; ///< index into known()
+    Vector       normal;             ///< normal of a plane
   };
 
-  /// Moves nodes of @p surface onto the spheres and others they belong to, and adds to @p notes
-  /// what each boundary is. @throws InputError naming Curved faces or Surface.
+  /// Move nodes of @p surface onto their spheres, cylinders, cones and tori, and add the shapes of
+  /// the boundaries to @p notes. @throws InputError with the entry Surface.
   SurfaceShapes(BodySurface<dim>                   &surface,
                 const geometry::BodyMeshParameters &parameters,
                 const std::vector<std::string>     &boundary_names,
@@ -55,14 +55,15 @@ public:
 
   const std::vector<geometry::KnownSurface<dim>> &known() const { return surfaces; }
 
-  /// By boundary; the names of parts of several kinds one after the other.
+  /// Return the shapes by boundary. The name of a boundary with parts of several kinds lists the
+  /// kinds.
   const std::map<unsigned int, geometry::BoundaryShape> &of_boundaries() const
   {
     return boundary_shapes;
   }
 
-  /// What a node or an edge of these facets lies on.
-  geometry::Guides<dim> guides(const std::vector<unsigned int> &facets) const;
+  /// Return the surfaces and planes on which a node or an edge of these facets lies.
+  geometry::GeometryConstraints<dim> constraints(const std::vector<unsigned int> &facets) const;
 
 private:
   BodySurface<dim>                               &surface;
@@ -71,8 +72,7 @@ private:
   std::vector<std::string>                       &notes;
   double                                          digit; ///< see last_digit()
   std::vector<geometry::KnownSurface<dim>>        surfaces;
-  std::vector<Shape>                              shapes; ///< of parts
-  std::map<unsigned int, unsigned int>            said;   ///< boundary -> index of its surface
+  std::vector<Shape>                              shapes; ///< shapes of the parts
   std::map<unsigned int, std::string>             wanted; ///< boundary -> facets or smooth
   std::map<unsigned int, geometry::BoundaryShape> boundary_shapes;
 
@@ -88,8 +88,8 @@ private:
   void move_nodes();
 };
 
-/// A unit of the last digit with which the coordinates were written, of the largest of them; 0 if
-/// they have all digits, or so few that these may be the design's.
+/// Return a unit of the last written digit of the largest coordinate. Return 0 if the coordinates
+/// have all digits, or so few that they may be exact.
 template <int dim>
 double last_digit(const std::vector<dealii::Point<dim>> &points);
 } // namespace snug::mesh_file

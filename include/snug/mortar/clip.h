@@ -1,7 +1,7 @@
 #ifndef snug_mortar_clip_h
 #define snug_mortar_clip_h
 
-#include <snug/faces/differential.h>
+#include <snug/faces/recording.h>
 
 #include <array>
 #include <vector>

@@ -25,6 +25,28 @@ struct FaceIntegrals
   dealii::Table<2, Number>              offset; ///< int N_j delta_d
 };
 
+/// Return integrals of a face with @p n nodes and @p n_masters master faces, all 0.
+template <int dim, typename Number>
+FaceIntegrals<Number> zero_integrals(unsigned int n, unsigned int n_masters);
+
+/// Visit all numbers of @p integrals, always in the same order.
+template <typename Integrals, typename Visit>
+void for_each_number(Integrals &integrals, const Visit &visit)
+{
+  const auto of_table = [&](auto &table) {
+    for (unsigned int i = 0; i < table.n_rows(); ++i)
+      for (unsigned int j = 0; j < table.n_cols(); ++j)
+        visit(table(i, j));
+  };
+  for (auto &number : integrals.slave)
+    visit(number);
+  of_table(integrals.slave_slave);
+  for (auto *tables : {&integrals.slave_master, &integrals.weights})
+    for (auto &table : *tables)
+      of_table(table);
+  of_table(integrals.offset);
+}
+
 /// Return all numbers of @p integrals, to be sent to other ranks.
 template <typename Number>
 std::vector<double> to_numbers(const FaceIntegrals<Number> &integrals);
@@ -78,44 +100,24 @@ struct FaceCoupling
   dealii::Table<2, Number>              multiplier_offset; ///< int psi_j delta_d
 };
 
-/// Offset of a face at one point, from its @p offsets at the samples, with the derivatives with
-/// respect to the coordinates.
-template <int dim, typename Number>
-struct OffsetPoint
-{
-  static constexpr unsigned int                degree = mesh::surface_degree;
-  const faces::FaceValues<dim, double, degree> values;
-  std::array<Number, dim>                      offset{};
-  std::array<std::array<Number, dim>, dim - 1> slopes{};
-
-  OffsetPoint(const FaceNodes<dim, Number> &offsets, const faces::FaceCoordinates<dim, double> &xi)
-    : values(degree, xi)
-  {
-    for (unsigned int k = 0; k < offsets.size(); ++k)
-      for (int d = 0; d < dim; ++d)
-        {
-          offset[d] += values.value[k] * offsets[k][d];
-          for (int a = 0; a < dim - 1; ++a)
-            slopes[a][d] += values.gradient[k][a] * offsets[k][d];
-        }
-  }
-};
-
 template <int dim, typename Number>
 FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quadrature,
                                 const MortarFace<dim, Number>              &slave,
                                 const std::vector<MortarFace<dim, Number>> &masters);
 
+/// Add the derivatives of a scalar through the integrals to @p recording, of which @p slave and
+/// @p masters are numbers. @p slopes are the derivatives of the scalar with respect to the
+/// integrals of integrate(). Only one point is recorded at a time, so that little memory is needed.
+template <int dim>
+void add_integral_derivatives(const SegmentQuadrature<dim>                        &quadrature,
+                              const MortarFace<dim, faces::Recorded>              &slave,
+                              const std::vector<MortarFace<dim, faces::Recorded>> &masters,
+                              const FaceIntegrals<double>                         &slopes,
+                              faces::Recording                                    &recording);
+
 template <typename Number>
 FaceCoupling<Number> couple(const FaceIntegrals<Number> &integrals,
                             const MultiplierFunctions   &functions);
-
-/// Apply the transpose of the derivative of couple(). From the gradient of a scalar with respect to
-/// the coupling, compute its gradient with respect to the integrals, except for the weights, on
-/// which the coupling does not depend.
-FaceIntegrals<double> couple_transpose(const FaceIntegrals<double> &integrals,
-                                       const MultiplierFunctions   &functions,
-                                       const FaceCoupling<double>  &gradient);
 } // namespace snug::mortar
 
 #endif

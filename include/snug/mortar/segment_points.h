@@ -4,6 +4,8 @@
 #include <snug/faces/face_map.h>
 #include <snug/mesh/idealization.h>
 
+#include <functional>
+
 namespace snug::mortar {
 /// A point of the slave face and the point of the master face that it meets.
 template <int dim, typename Number>
@@ -11,6 +13,7 @@ struct SegmentPoint
 {
   Number                              weight; ///< slave area [length^2]
   faces::FaceCoordinates<dim, Number> slave, master;
+  faces::FaceValues<dim, Number>      slave_shape; ///< at the point of the slave
 };
 
 /// Positions of the nodes of a face.
@@ -54,11 +57,14 @@ class SegmentQuadrature
 public:
   SegmentQuadrature(unsigned int degree, const mesh::Idealization &idealization);
 
-  /// Return all points; none if the faces do not overlap. The quadrature is exact for shape
-  /// functions times linear functions where faces are parallelograms.
+  /// Call @p visit for each point with a function that computes the point; for none if the faces do
+  /// not overlap. The quadrature is exact for shape functions times linear functions where faces
+  /// are parallelograms.
   template <typename Number>
-  std::vector<SegmentPoint<dim, Number>> points(const FaceNodes<dim, Number> &slave,
-                                                const FaceNodes<dim, Number> &master) const;
+  void for_each_point(
+    const FaceNodes<dim, Number>                                                  &slave,
+    const FaceNodes<dim, Number>                                                  &master,
+    const std::function<void(const std::function<SegmentPoint<dim, Number>()> &)> &visit) const;
 
   /// Widen @p box to contain the part of the slave face opposite to the master.
   void add_cover(const FaceNodes<dim, double> &slave,

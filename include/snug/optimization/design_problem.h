@@ -26,7 +26,7 @@ struct Evaluation
   /// @}
 };
 
-/// What a constraint demands.
+/// Relation of a constraint's value to zero.
 enum class Relation
 {
   equal,  ///< c(x) = 0
@@ -48,11 +48,12 @@ struct DesignProblem
   /// Add the gradients to what evaluate() gave at the design, which costs little if nothing else
   /// was evaluated since. None: evaluate() gives them.
   std::function<void(const std::vector<double> &, Evaluation &)> differentiate;
-  /// What this rank takes along from one evaluate() to the next (the warm
-  /// start of a solver); differentiate() leaves it. Both or none; not collective.
+  /// Return the data that this rank keeps from one evaluate() to the next (the warm start of a
+  /// solver). differentiate() does not change the data. Both memory and remember are set, or
+  /// none; not collective.
   std::function<std::string()> memory;
-  /// Take it along again. @return false, with all forgotten, if the bytes
-  /// are not whole or not of this problem, as no bytes are.
+  /// Restore the data that memory() returned. @return false, with all data cleared, if the bytes
+  /// are empty, incomplete or not of this problem.
   std::function<bool(const std::string &)> remember;
   /// of each constraint; empty: all are equalities
   std::vector<Relation> relations;
@@ -62,9 +63,9 @@ struct DesignProblem
   /// of each variable, the change that a first step may make; empty: a tenth of the bounds' widths
   std::vector<double> lengths;
   /**
-   * What is expected at x + dx, with derivatives, by the linearization that differentiate() has
-   * left in the Evaluation at x, which is @p at: as where a response is a known function of
-   * quantities that are nearly linear. None: linear functions. Not collective.
+   * Return the prediction of the values and derivatives at x + dx from the linearization that
+   * differentiate() stores in the Evaluation @p at x, for responses that are known functions of
+   * nearly linear quantities. None: the functions are linear. Not collective.
    */
   std::function<Evaluation(const Evaluation &at, const std::vector<double> &dx)> predict;
   /// predict() has the curvature of the objective; else it is learnt from gradients.

@@ -13,45 +13,44 @@
 #include <vector>
 
 namespace snug::optimization {
-/// Where a journal lives.
+/// Settings of a journal.
 struct JournalSettings
 {
-  /// Exists; receives journal.txt and warm-start.<rank>.<0|1>.
+  /// existing directory for journal.txt and warm-start.<rank>.<0|1>
   std::string directory;
-  /// Lines "name = value" of everything that decides the numbers. A
-  /// restart with another fingerprint is refused.
+  /// lines "name = value" of all settings on which results depend; a restart with another
+  /// fingerprint is rejected
   std::string fingerprint;
   /// Replay the journal of the directory; otherwise it is overwritten.
   bool     restart      = false;
   MPI_Comm communicator = MPI_COMM_SELF;
-  /// Receives one line, without its end; called on every rank.
+  /// called on every rank with one line of the log, without the end of line
   std::function<void(const std::string &)> log;
 };
 
-/// Designs this close are the same one to a replay, relative to the largest variable, or to the
-/// width of the bounds if that is smaller. Scales of constraints are sums over ranks: on another
-/// number of ranks they differ by rounding, and with them the designs that an optimizer makes of
-/// recorded values: by 1e-7 where MMA solves its subproblems.
+/// Tolerance within which a replay takes a design for the recorded one, relative to the largest
+/// variable, or to the width of the bounds if that is smaller. On another number of ranks, sums
+/// over ranks round differently. Optimizers then propose slightly different designs from the
+/// recorded values; the designs of MMA differ by up to 1e-7.
 constexpr double replay_tolerance = 1e-6;
 
 /**
- * Records every evaluation of a design problem, once more where it gains gradients, and on a
- * restart returns the recorded ones in order instead of evaluating again. The optimizer is
- * deterministic, so it takes the same path, bit for bit, and goes on from where the record ends.
- * On another number of ranks the path agrees to replay_tolerance: recorded values are returned for
- * designs that differ by less.
- * Problems that follow one another, as when contact is paired anew, share a journal.
+ * This class records every evaluation of a design problem, and every differentiation as a second
+ * record. On a restart it returns the recorded evaluations in order instead of evaluating again.
+ * The optimizer is deterministic, so it takes the same path, bit for bit, and continues where the
+ * records end. On another number of ranks the path agrees to replay_tolerance. Optimizations that
+ * follow one another, as after a new contact search, share a journal.
  *
- * A record is complete when its last line is. Before that of evaluate() number v is begun, every
- * rank has moved the problem's memory() of then to warm-start.<rank>.<v % 2>; that of number v - 1
- * stays until number v + 1. So at any moment the last complete record has its data, and a kill at
- * any moment loses at most the evaluation under way. They are remembered just before the first
- * live evaluation. To differentiate the last design evaluated, that is evaluated again from the
- * data of number v - 1, as it was before.
+ * A record is complete when its last line has been written. Before the record of evaluation v is
+ * written, every rank stores the memory() of the problem in warm-start.<rank>.<v % 2>. The file of
+ * evaluation v - 1 is overwritten by evaluation v + 1 only. Therefore the last complete record
+ * always has its data, and a killed run loses at most the evaluation in progress. The stored data
+ * are loaded before the first evaluation that is not replayed. If the first call that is not
+ * replayed is a differentiation, its design is evaluated again from the data of evaluation v - 1.
  *
- * They are not (the log says so) if the number of ranks has changed, a
- * file is missing or cut short, or a replayed design differs from the one
- * asked for by more than replay_tolerance; the record is then cut there.
+ * The data are not loaded, and the log says so, if the number of ranks has changed, a file is
+ * missing or truncated, or a replayed design differs from the requested design by more than
+ * replay_tolerance. In the last case the records are cut there.
  *
  * Only rank 0 reads and writes journal.txt.
  */
@@ -68,8 +67,8 @@ public:
   explicit Journal(const JournalSettings &settings);
 
   /**
-   * @p problem with its evaluations recorded or replayed, for as long as
-   * this lives. Evaluating it is collective and throws what @p problem
+   * Return @p problem with its evaluations recorded or replayed. The result refers to this journal.
+   * Evaluating it is collective and throws what @p problem
    * throws: TangledMesh and other SolveErrors are recorded and thrown again
    * by a replay, other errors are not recorded; InputError if the journal
    * cannot be written.
@@ -108,12 +107,12 @@ private:
   std::vector<JournalRecord> recorded;       ///< not yet replayed: [next, end)
   std::size_t                header_end = 0; ///< bytes
   unsigned int               next       = 0; ///< index of next evaluation
-  unsigned int               values     = 0; ///< records of evaluate() among them
-  unsigned int               first      = 0; ///< values before the problem under way
-  std::vector<double>        last;           ///< design of the last value
-  unsigned int               replayed = 0;
-  bool                       is_live  = false;
-  std::ofstream              file; ///< rank 0 only
+  unsigned int               values     = 0; ///< number of records of evaluate() below next
+  unsigned int        first = 0; ///< number of records of evaluate() of earlier optimizations
+  std::vector<double> last;      ///< design of the last value
+  unsigned int        replayed = 0;
+  bool                is_live  = false;
+  std::ofstream       file; ///< rank 0 only
 };
 } // namespace snug::optimization
 

@@ -34,7 +34,7 @@ std::string journal_text(const JournalRecord &record, unsigned int index);
 /// The first lines: format version and fingerprint.
 std::string journal_header(const std::string &fingerprint);
 
-/// What a journal's text holds.
+/// Content of a journal's text.
 struct JournalContents
 {
   std::size_t                header_end = 0; ///< bytes; 0: no whole header

@@ -4,7 +4,7 @@
 #include <string>
 
 namespace snug::optimization {
-/// What a constraint demands of a response.
+/// Constraint of a response: an upper, a lower or a required value.
 struct Limit
 {
   enum class Side

@@ -46,7 +46,7 @@ struct Hooks
 };
 
 /// Why a search, or one of its runs, ended.
-enum class End
+enum class StopReason
 {
   none,
   gradient,
@@ -74,7 +74,7 @@ struct OptimizationResult
   double              objective_final      = 0.;
   double              constraint_violation = 0.; ///< as in Iteration
   double              projected_gradient   = 0.; ///< as in Iteration
-  End                 end                  = End::none;
+  StopReason          end                  = StopReason::none;
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
   /// "interrupted", "a constraint without a gradient at the first design..."
@@ -88,11 +88,12 @@ struct OptimizationResult
   bool success = false;
 };
 
-/// What is wrong with @p result: no word if it is a success, or met the
-/// constraints when the evaluations ran out or it was interrupted.
-std::string complaint(const OptimizationResult &result, const OptimizationParameters &parameters);
+/// Return why @p result is not usable. The text is empty if the search converged, or if it ran out
+/// of evaluations or was interrupted at a design that satisfies the constraints.
+std::string failure_reason(const OptimizationResult     &result,
+                           const OptimizationParameters &parameters);
 
-/// Whether an algorithm can hold equality constraints.
+/// Return whether an algorithm supports equality constraints.
 bool takes_equalities(Algorithm algorithm);
 
 /**

@@ -33,11 +33,11 @@ public:
             const OptimizationParameters &parameters,
             const Hooks                  &hooks);
 
-  /// Run the search. @return why it ended: End::round_off if it stalled. Exceptions of evaluate()
-  /// and of hooks other than SolveErrors of evaluate() pass through.
-  End run();
+  /// Run the search. @return why it ended: StopReason::round_off if it stalled. Exceptions of
+  /// evaluate() and of hooks other than SolveErrors of evaluate() pass through.
+  StopReason run();
 
-  /// The message of the last failed evaluation, for End::no_value.
+  /// The message of the last failed evaluation, for StopReason::no_value.
   std::string failure;
 
 private:
@@ -50,7 +50,7 @@ private:
   void              constraints(double *values, const double *y, double *jacobian);
   Progress::Point   values_at(const std::vector<double> &y, bool with_gradient);
   void              stop_if_stalled();
-  [[noreturn]] void stop(End reason);
+  [[noreturn]] void stop(StopReason reason);
   template <typename Function>
   void guarded(const Function &work);
 
@@ -66,7 +66,7 @@ private:
   Progress                     &progress;
   const OptimizationParameters &parameters;
   const Hooks                  &hooks;
-  End                           end = End::round_off; ///< of the last run of NLopt
+  StopReason                    end = StopReason::round_off; ///< of the last run of NLopt
   std::exception_ptr            error; ///< thrown in a callback, in which NLopt would lose it
   std::vector<double>           failed_design;
   unsigned int                  failures = 0; ///< in a row

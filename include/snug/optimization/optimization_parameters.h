@@ -21,9 +21,9 @@ enum class Algorithm
 };
 inline Names names(Algorithm)
 {
-  return {{"SLSQP", "sequential quadratic programming (Kraft) of the NLopt library in a trust "
-                    "region, for all constraints"},
-          {"MMA", "method of moving asymptotes (Svanberg) of NLopt, for inequalities"}};
+  return {{"SLSQP", "sequential quadratic programming (Kraft, NLopt) in a trust region, for all "
+                    "constraints"},
+          {"MMA", "method of moving asymptotes (Svanberg, NLopt), for inequality constraints"}};
 }
 
 enum class Combination
@@ -33,10 +33,10 @@ enum class Combination
 };
 inline Names names(Combination)
 {
-  return {{"sum", "the weighted sum"},
+  return {{"sum", "weighted sum"},
           {"worst",
-           "a smooth maximum of the weighted values, less than ln(n) percent of the first one "
-           "above it for n load cases"}};
+           "smooth maximum of the weighted values. For n load cases it exceeds the maximum by less "
+           "than ln(n) percent of the maximum of the first design."}};
 }
 
 /// Entries of `subsection Optimization`.

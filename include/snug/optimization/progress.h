@@ -29,13 +29,13 @@ public:
 
   /**
    * Count and report an accepted design, unless it is the last one again,
-   * and say whether it ends the search: End::gradient, End::objective,
-   * End::design, End::none or, if the step was within the design tolerance
-   * but far from halved a violation beyond its tolerance, End::round_off.
+   * and say whether it ends the search: StopReason::gradient, StopReason::objective,
+   * StopReason::design, StopReason::none or, if the step was within the design tolerance
+   * but far from halved a violation beyond its tolerance, StopReason::round_off.
    * Of the size of a step that is not @p full, only two in a row end the
    * search.
    */
-  End accept(const Point &point, bool full);
+  StopReason accept(const Point &point, bool full);
 
   /// Call the hook with the last accepted design.
   void report() const;
@@ -43,9 +43,8 @@ public:
   /// has_gained() and the two-steps rule count from here.
   void begin_run();
 
-  /// Whether the best design has become better since begin_run() by more
-  /// than the objective tolerance or, as long as none is feasible, halved
-  /// its violation.
+  /// Return whether the best design has improved since begin_run() by more than the objective
+  /// tolerance or, as long as no design is feasible, has halved its violation.
   bool has_gained() const;
 
   /// The design accepted last.
@@ -59,22 +58,22 @@ public:
   /// using up the constraints' tolerance). A best design that was never
   /// accepted, as where evaluations run out, is accepted now, so that
   /// the result is one of the designs reported. @p failure says why the
-  /// design of End::no_value has none.
-  OptimizationResult finish(End end, const std::string &failure);
+  /// design of StopReason::no_value has none.
+  OptimizationResult finish(StopReason end, const std::string &failure);
 
-  /// Whether a design meets the constraints to their tolerance.
+  /// Return whether a design satisfies the constraints to their tolerance.
   bool is_feasible(const ScaledProblem::Point &point) const
   {
     return point.violation <= parameters.constraint_tolerance;
   }
 
-  /// Whether @p a is lower than @p b, where both are feasible, or else
-  /// violates less.
+  /// Return whether @p a has a lower objective than @p b if both are feasible, or else a smaller
+  /// violation.
   bool is_better(const ScaledProblem::Point &a, const ScaledProblem::Point &b) const;
 
 private:
   bool        has_gradients(const ScaledProblem::Point &point) const;
-  std::string stop_reason(End end, const std::string &failure) const;
+  std::string stop_reason(StopReason end, const std::string &failure) const;
 
   const ScaledProblem          &problem;
   const OptimizationParameters &parameters;

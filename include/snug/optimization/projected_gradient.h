@@ -20,7 +20,7 @@ struct ConstraintGradient
   bool                pushes; ///< an inequality: its multiplier is >= 0
 };
 
-/// What projected_gradient() finds.
+/// Result of projected_gradient().
 struct ProjectedGradient
 {
   double              norm;

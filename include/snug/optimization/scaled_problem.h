@@ -55,7 +55,7 @@ public:
   /// differentiate() throws. So do all that need gradients.
   const Evaluation &differentiated(const Point &point) const;
 
-  /// Whether at() would answer without an evaluation.
+  /// Return whether at() would answer without an evaluation.
   bool is_cached(const std::vector<double> &y) const { return find(y) != nullptr; }
 
   /// y of a design.
@@ -74,16 +74,17 @@ public:
   /// gradient: what is there is round-off, or as good as that.
   static constexpr double no_slope = 1e-8;
 
-  /// Whether a constraint that holds the design has no gradient there, but
-  /// round-off: then no first-order method knows where it leads.
+  /// Return whether the gradient of an active constraint vanishes to round-off. A first-order
+  /// method then has no direction in which the constraint changes.
   bool is_blind(const Point &point) const;
 
-  /// As defined at Iteration.
+  /// Return the projected gradient defined at Iteration.
   double projected_gradient(const Point &point) const;
-  /// The mu of it, 0 for constraints that are not active; of f / F and c_j / s_j.
+  /// Return the multipliers mu of projected_gradient() with respect to f / F and c_j / s_j; 0 for
+  /// constraints that are not active.
   std::vector<double> multipliers(const Point &point) const;
 
-  /// Of each constraint.
+  /// Return the relation of each constraint.
   const std::vector<Relation>        &relations() const { return constraint_relations; }
   const std::vector<double>          &lower() const { return y_lower; }
   const std::vector<double>          &upper() const { return y_upper; }
@@ -94,14 +95,14 @@ public:
   /// The width of the bounds of variable @p i in its lengths.
   double bound_width(unsigned int i) const { return y_upper[i] - y_lower[i]; }
 
-  /// What is expected of the functions that the optimizer sees, with their derivatives.
+  /// Predicted values and derivatives of the scaled objective and constraints.
   struct Prediction
   {
     double                           objective = 0.;
     std::vector<double>              gradient, constraints;
     std::vector<std::vector<double>> jacobian;
   };
-  /// That at y + @p d, with y of @p at.
+  /// Return the prediction at y + @p d, where y belongs to @p at.
   Prediction predicted(const Point &at, const std::vector<double> &d) const;
   bool       predicts_objective() const { return problem.predicts_objective; }
 

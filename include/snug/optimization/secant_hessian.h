@@ -15,7 +15,7 @@ public:
   /// B = 0.
   explicit SecantHessian(unsigned int n) : rows(n, std::vector<double>(n, 0.)) {}
 
-  /// Whether a difference of gradients was measured since guess().
+  /// Return whether a difference of gradients was measured since guess().
   bool is_measured() const { return measured; }
 
   /// B = @p curvature I until a difference is measured.

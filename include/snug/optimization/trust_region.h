@@ -38,10 +38,10 @@ public:
 
   /// Run the search. @return why it ended. Exceptions of evaluate() and of hooks other than
   /// SolveErrors of evaluate() pass through.
-  End run();
+  StopReason run();
 
-  /// The message of the last failed evaluation, for End::no_value. It is empty if the last rejected
-  /// design has a value.
+  /// The message of the last failed evaluation, for StopReason::no_value. It is empty if the last
+  /// rejected design has a value.
   std::string failure;
 
 private:
@@ -55,11 +55,11 @@ private:
     Progress::Point     point = nullptr;
   };
 
-  Trial proposed(const StepModel &model);
-  bool  evaluated(Trial &trial);
-  End   reject(const Trial &trial);
-  End   accept(const StepModel &model, const Trial &trial);
-  void  learn(const StepModel &model, const Trial &trial);
+  Trial      proposed(const StepModel &model);
+  bool       evaluated(Trial &trial);
+  StopReason reject(const Trial &trial);
+  StopReason accept(const StepModel &model, const Trial &trial);
+  void       learn(const StepModel &model, const Trial &trial);
 
   double weighted_violation(const std::vector<double> &constraints) const;
 

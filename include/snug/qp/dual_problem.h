@@ -12,13 +12,14 @@ namespace snug::qp {
 using RowSet = std::vector<unsigned char>;
 
 /**
- * This class is the face of the feasible set on which only the rows of a set M are free and the
- * others are zero. It provides the projector and the preconditioner of the face,
+ * This class is the face of the feasible set on which the multipliers of the rows of a set M may
+ * change and all other multipliers are zero. It provides the projector and the preconditioner of
+ * the face,
  * @f[ P_M = I_M - G_M^T (G_M G_M^T)^+ G_M, \qquad
  *     M^{-1}_M = B_{D,M} S B_{D,M}^T, \quad
  *     B_{D,M} = (B_M D^{-1} B_M^T)^{-1} B_M D^{-1}. @f]
- * @f$G_M@f$ are the columns of G in M. Parts are built at their first use. All members are
- * collective. All multi-vectors have n_owned rows.
+ * @f$G_M@f$ are the columns of G in M. Factorizations are computed at their first use. All members
+ * are collective. All multi-vectors have n_owned rows.
  */
 class FreeSet
 {
@@ -33,7 +34,7 @@ public:
 
   /**
    * Set x <- x - C (C'FC)^{-1} C'F x, which is F-orthogonal to the directions C. The directions C
-   * are known for every face. x does not change if there are none.
+   * are the same for every face. By default there are none, and x does not change.
    * @return the square of the F-norm of the removed part, for each column.
    */
   virtual std::vector<double> deflate(MultiVector &x) const
@@ -44,7 +45,8 @@ public:
   /// Minimize over the span of C: lambda += C (C'FC)^{-1} C'r, and update r = d - F lambda.
   virtual void minimize_over_deflated(MultiVector &, MultiVector &) const {}
 
-  /// Return z = M^{-1}_M r, which is zero outside M and not projected. Counts r.n_columns.
+  /// Return z = M^{-1}_M r, which is zero outside M and not projected. Add r.n_columns() to the
+  /// count of applications of the preconditioner.
   virtual MultiVector precondition(const MultiVector &r) const = 0;
 
   /// Return the rigid amplitudes (G_M G_M')^+ G_M x (n_kernel x k), on all ranks.
@@ -58,8 +60,8 @@ public:
   virtual std::vector<double> make_feasible(MultiVector &x, const MultiVector &e) const = 0;
 
   /**
-   * Return the rates (G'v)_i at which the contacts close under v, the part of @p e - G_M x that M
-   * cannot hold; n_owned entries. Positive rates close.
+   * Return the rates (G'v)_i at which the contacts close under v, the part of the load @p e
+   * outside the range of G_M; n_owned entries. Positive rates close.
    */
   virtual std::vector<double> gap_closing_rates(const MultiVector &e) const = 0;
 };

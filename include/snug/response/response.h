@@ -15,7 +15,7 @@ namespace snug::response {
 template <int dim>
 struct Partials
 {
-  using Field = typename mesh::BodyMesh<dim>::Field;
+  using Field = mesh::Field<dim>;
 
   /// dJ/du at fixed forces and positions, per subdomain of this rank.
   feti::PrimalVectors u;

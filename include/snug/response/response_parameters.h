@@ -21,7 +21,11 @@ enum class Component
 };
 inline Names names(Component)
 {
-  return {{"normal"}, {"x"}, {"y"}, {"z"}};
+  return {{"normal", "displacement along the outward normal of the face; sum of the sizes of all "
+                     "contact forces"},
+          {"x"},
+          {"y"},
+          {"z"}};
 }
 
 /// Entries of `subsection Response NAME`, or the defaults of a response that is named by its

@@ -1,6 +1,8 @@
 #ifndef snug_scene_output_parameters_h
 #define snug_scene_output_parameters_h
 
+#include <snug/base/run_context.h>
+
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace snug::scene {
 /// Entries of `subsection Output`.
 struct OutputParameters
 {
+  Verbosity verbosity = Verbosity::normal; ///< of the log
   /// fields besides displacement and body
   std::vector<std::string> fields         = {"stress",    "von_mises",           "region",
                                              "subdomain", "design_displacement", "shape_gradient",

@@ -33,7 +33,9 @@ enum class Task
 };
 inline Names names(Task)
 {
-  return {{"state"}, {"sensitivity"}, {"optimize"}};
+  return {{"state", "one contact analysis"},
+          {"sensitivity", "one contact analysis and its derivatives by all gradient methods"},
+          {"optimize", "search for the best shape"}};
 }
 
 /// Entries of `subsection Material NAME`.

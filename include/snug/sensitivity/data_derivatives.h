@@ -17,10 +17,10 @@ namespace snug::sensitivity {
  * (semi-analytic derivatives). Collective.
  */
 template <int dim>
-KktVectors data_derivatives(const state::StateSolver<dim>                          &solver,
-                            const state::ContactState<dim>                         &state,
-                            const std::vector<typename mesh::BodyMesh<dim>::Field> &velocities,
-                            const GradientParameters                               &parameters);
+KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
+                            const state::ContactState<dim>      &state,
+                            const std::vector<mesh::Field<dim>> &velocities,
+                            const GradientParameters            &parameters);
 } // namespace snug::sensitivity
 
 #endif

@@ -19,11 +19,11 @@ enum class Method
 };
 inline Names names(Method)
 {
-  return {{"energy", "without any solve, for potential energy and volume"},
-          {"adjoint", "one linear solve per response with the state's factorizations"},
-          {"direct", "the derivatives of the state, one linear solve per variable with the state's "
-                     "factorizations"},
-          {"finite differences", "differences of cold-started states, a baseline"}};
+  return {{"energy", "no solve; for potential energy and volume"},
+          {"adjoint", "one linear solve per response, with the factorizations of the state"},
+          {"direct", "one linear solve per variable for the derivatives of the state, with the "
+                     "factorizations of the state"},
+          {"finite differences", "differences of states with cold starts, for comparison"}};
 }
 
 /// Order in which the right-hand sides of a direct or adjoint solve are solved.
@@ -34,7 +34,9 @@ enum class Solves
 };
 inline Names names(Solves)
 {
-  return {{"block"}, {"recycled"}};
+  return {{"block", "all at once"},
+          {"recycled", "one after the other, each projected onto the search directions of the "
+                       "solves before"}};
 }
 
 /// Way in which the derivatives K', f', B' and g' are computed.
@@ -48,12 +50,14 @@ enum class Derivatives
 };
 inline Names names(Derivatives)
 {
-  return {{"exact", "differentiated by hand"},
-          {"forward differences", "of element quantities (semi-analytic)"},
-          {"central differences", "the same from both sides"},
+  return {{"exact", "analytic derivatives"},
+          {"forward differences", "forward differences of element quantities (semi-analytic)"},
+          {"central differences", "central differences of element quantities"},
           {"refined forward differences",
-           "forward ones that take the rigid motion of each element exactly, for slender bodies"},
-          {"refined central differences", "the same from both sides"}};
+           "forward differences with exact derivatives for the rigid motion of each element, for "
+           "slender bodies"},
+          {"refined central differences",
+           "central differences with exact derivatives for the rigid motion of each element"}};
 }
 
 /// Entries of `subsection Gradient`.

@@ -33,7 +33,7 @@ struct Gradient
   std::vector<double> values;
   /// dJ/dX if the method computes it: this rank's share at the local nodes, including hanging
   /// nodes. The values are the products of this field with the velocities.
-  std::optional<typename mesh::BodyMesh<dim>::Field> shape = {};
+  std::optional<mesh::Field<dim>> shape = {};
   /// False at weakly active contacts, where J has only one-sided derivatives. The
   /// values are then the derivatives for the strongly active set alone.
   bool differentiable = true;
@@ -45,7 +45,7 @@ struct Gradients
 {
   std::vector<Gradient<dim>> of_response;
   /// u'_j at the local nodes, if the method computes it
-  std::vector<typename mesh::BodyMesh<dim>::Field> displacement = {};
+  std::vector<mesh::Field<dim>> displacement = {};
   /// derivatives of the contact forces, per variable and contact row, if the method
   /// is direct; equal on all ranks [force / variable]
   std::vector<std::vector<double>> forces                 = {};

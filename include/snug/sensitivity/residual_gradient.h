@@ -13,11 +13,11 @@ namespace snug::sensitivity {
  * the local nodes, including hanging nodes. Collective.
  */
 template <int dim>
-void add_residual_gradient(const state::StateSolver<dim>       &solver,
-                           const state::ContactState<dim>      &state,
-                           const KktVectors                    &adjoint,
-                           unsigned int                         j,
-                           typename mesh::BodyMesh<dim>::Field &gradient);
+void add_residual_gradient(const state::StateSolver<dim>  &solver,
+                           const state::ContactState<dim> &state,
+                           const KktVectors               &adjoint,
+                           unsigned int                    j,
+                           mesh::Field<dim>               &gradient);
 } // namespace snug::sensitivity
 
 #endif

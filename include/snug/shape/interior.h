@@ -15,7 +15,7 @@ template <int dim>
 class Interior
 {
 public:
-  using Field     = typename mesh::BodyMesh<dim>::Field;
+  using Field     = mesh::Field<dim>;
   using FaceField = typename ShapedFace<dim>::Field;
 
   virtual ~Interior() = default;

@@ -59,7 +59,7 @@ template <int dim>
 class ShapeBasis
 {
 public:
-  using Field = typename mesh::BodyMesh<dim>::Field;
+  using Field = mesh::Field<dim>;
 
   virtual ~ShapeBasis() = default;
 
@@ -85,9 +85,9 @@ private:
 /// Return the positions of the local points at a design, reference + V alpha. Positions never
 /// accumulate the steps of designs. Collective.
 template <int dim>
-typename mesh::BodyMesh<dim>::Field positions(const mesh::BodyMesh<dim> &mesh,
-                                              const ShapeBasis<dim>     &basis,
-                                              const std::vector<double> &design);
+mesh::Field<dim> positions(const mesh::BodyMesh<dim> &mesh,
+                           const ShapeBasis<dim>     &basis,
+                           const std::vector<double> &design);
 
 /**
  * The basis of one subsection of entries, V = H E C M with the modes M. For modes of a face,

@@ -29,10 +29,10 @@ enum class InteriorKind
 inline Names names(InteriorKind)
 {
   return {{"linear blending",
-           "in boxes, a share of the face's move that falls linearly to zero at the opposite "
-           "face"},
-          {"Laplace", "each component of the move is harmonic"},
-          {"elasticity", "the body is elastic, the stiffer the smaller its cells"}};
+           "motion of the face, reduced linearly to zero at the opposite face; for boxes"},
+          {"Laplace", "solution of the Laplace equation for each component of the motion"},
+          {"elasticity", "solution of an elastic problem with a stiffness that grows as cells get "
+                         "smaller"}};
 }
 
 /// Entries of `subsection Shape` or `subsection Shape NAME`.

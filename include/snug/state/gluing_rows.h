@@ -85,7 +85,7 @@ private:
 
   void                      collect_surface(const mesh::Tearing &tearing);
   void                      scale_rows(const RowCoefficients<dim> &reference);
-  std::vector<unsigned int> cluster_ranks(const std::vector<contact::Row<dim>> &rows) const;
+  std::vector<unsigned int> assign_row_owners(const std::vector<contact::Row<dim>> &rows) const;
   Copies                    collect_copies(const mesh::Tearing             &tearing,
                                            const std::vector<unsigned int> &rank_of_contact) const;
   void                      number_node_rows(const Copies               &nodes,
@@ -95,7 +95,7 @@ private:
                                                 const std::vector<contact::Row<dim>> &reference_rows,
                                                 const std::vector<unsigned int>      &rank_of_contact,
                                                 std::vector<Message>                 &messages);
-  void deliver(const std::vector<Message> &messages, const mesh::Tearing &tearing);
+  void send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
   const mesh::BodyMesh<dim>                 &mesh;
   const mesh::Surface<dim>                  &surface;

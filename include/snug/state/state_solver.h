@@ -5,8 +5,7 @@
 #include <snug/state/state_problem.h>
 
 namespace snug::state {
-/// This class connects bodies at a geometry with Total FETI (StateProblem): it computes a state
-/// from a geometry and a load case.
+/// This class computes the state of a load case at given node positions, by Total FETI.
 template <int dim>
 class StateSolver
 {
@@ -34,7 +33,12 @@ public:
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
-  /// Return @p state, for which feti() is valid, after further iterations from its own forces,
+  /// Return the relative tolerance to which solve() solves. At first this is the tolerance of the
+  /// model.
+  double tolerance() const { return relative_tolerance; }
+  void   set_tolerance(double tolerance) { relative_tolerance = tolerance; }
+
+  /// Continue the solution of @p state, for which feti() must be valid, from its contact forces
   /// until its certificate meets @p tolerance. Collective. @throws SolveError.
   ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
 
@@ -83,6 +87,7 @@ private:
 
   std::unique_ptr<StateProblem<dim>> problem;
   unsigned int                       n_pairings = 0;
+  double                             relative_tolerance;
 };
 } // namespace snug::state
 

@@ -25,7 +25,7 @@ template <int dim>
 class DirichletConstraints
 {
 public:
-  using Field  = typename mesh::BodyMesh<dim>::Field;
+  using Field  = mesh::Field<dim>;
   using Frames = std::vector<ConstraintFrame<dim>>; ///< per held node
 
   /// Collect the constraints. @p mesh must outlive this object. Collective.

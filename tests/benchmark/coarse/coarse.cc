@@ -1,4 +1,4 @@
-// What the coarse problem G G' costs a rank that keeps all of it, or in a group of all ranks:
+// Measure the cost of the coarse problem G G' on a rank that keeps it, and on a group of all ranks:
 // subdomains in a cube, each coupled with its 26 neighbours, six rigid modes each. Prints CSV:
 // seconds of the numeric factorization and of a solve with one column, and the megabytes of the
 // factor on rank 0, medians of the repeats given.

@@ -9,8 +9,8 @@
 #include <random>
 #include <sstream>
 
-/// What the pairing of contact at the start of a search does to objectives at later designs: nodal
-/// rows of faces that do not match, whose feet follow the design.
+/// Test the effect of the contact search at the start of an optimization on objectives at later
+/// designs: nodal rows of non-matching faces, whose foot points follow the design.
 namespace {
 using namespace snug;
 
@@ -41,17 +41,18 @@ public:
   }
 
 private:
-  /// Between a pairing at the start and one at the design, where no foot has left its face: of the
-  /// objective, and of its slopes, as far as differences of second order tell.
+  /// Between a pairing at the start and one at the design, where no foot point has left its face:
+  /// of the objective, and of its slopes, as far as differences of second order tell.
   static constexpr double tolerance = 1e-9, slope_tolerance = 1e-4;
-  /// Of designs from the first one, relative to the width of the bounds.
+  /// Distances of designs from the first one, relative to the width of the bounds.
   static constexpr double way  = 0.25;
   static constexpr double step = 1e-4;
 
   void check(const std::vector<double> &design)
   {
     problem.solver->pair(problem.positions(problem.shapes->start()));
-    const auto   states  = problem.solve(design);
+    const auto states = problem.solve(design);
+    problem.scale_objective(states);
     const auto   factors = problem.combined_objective(states).factors;
     const double found   = problem.combined_objective(states).value;
     const auto   slopes  = sensitivity::combined_gradients(problem.load_cases(states, design, {}),

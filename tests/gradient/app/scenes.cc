@@ -22,7 +22,7 @@ using namespace snug;
 
 /// Between the methods, which solve the same system or its transpose.
 const double method_tolerance = 1e-10;
-/// Of differences of fourth order between states.
+/// Tolerance of differences of fourth order between states.
 const double difference_tolerance = 1e-7;
 const double energy_tolerance     = 1e-8;
 /// of differences and of designs from the first one, relative to the width
@@ -123,6 +123,7 @@ public:
     for (const auto &pair : problem.solver->contact().pairs())
       ASSERT_EQ(pair.parameters.method, contact_method);
     const auto states = problem.solve(design);
+    problem.scale_objective(states);
     for (const auto &state : states)
       {
         // a body that may move freely need not touch another

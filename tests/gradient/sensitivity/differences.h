@@ -12,8 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace snug::test {
-/// What is differentiated: responses by name and the displacement of the
-/// local nodes.
+/// Values to be differentiated: responses by name and the displacement of the local nodes.
 template <int dim>
 struct Values
 {

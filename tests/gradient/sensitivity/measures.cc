@@ -50,7 +50,7 @@ TEST(Gradient, MeasuresWithHangingNodes)
   check_responses(solid_scene, of_contact);
 }
 
-/// Of degree 2, which follows the three quadratic heights exactly.
+/// Return a scene of degree 2, which represents the three quadratic heights exactly.
 TestScene<2> driven_section(const mesh::Idealization &idealization)
 {
   auto scene         = driven<2>(4, {0.03});

@@ -78,7 +78,7 @@ TEST(Unresolved, AreTheCellsUnderAStep)
 }
 
 namespace {
-/// Of blocks with 4 cells per edge under an even pressure of 10.
+/// Return the rough pressure of blocks with 4 cells per edge under a uniform pressure of 10.
 template <int dim>
 accuracy::RoughPressure rough(const std::string &gap)
 {

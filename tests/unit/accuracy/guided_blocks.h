@@ -26,7 +26,7 @@ TestScene<dim> guided_blocks(unsigned int n, unsigned int m)
   return scene;
 }
 
-/// Of mixed elements, each block torn into several subdomains.
+/// Return blocks of mixed elements, each torn into several subdomains.
 template <int dim>
 TestScene<dim> nearly_incompressible(const unsigned int n,
                                      const double       nu,

@@ -32,7 +32,7 @@ scene::Scene read(const std::vector<std::string> &sets, const std::string &of = 
   return scene::read_scene({"scene.prm", of, sets, ""});
 }
 
-/// What the mesh has that the scene describes.
+/// Return the counts of the mesh of a scene.
 template <int dim>
 advice::Counts made(const scene::Scene &scene)
 {

@@ -71,8 +71,8 @@ TEST(CommandLine, NamesWhatIsWrong)
   expect(error_of({"a.prm", "b.prm"}), "'b.prm'");
   expect(error_of({"--estimate", "--ranks=0", "a.prm"}), "'--ranks' needs a whole number");
   expect(error_of({"--estimate", "--ranks=two", "a.prm"}), "'--ranks' needs a whole number");
-  expect(error_of({"--ranks=2", "a.prm"}), "'--ranks' is for --estimate");
-  expect(error_of({"--advise", "--restart", "a.prm"}), "at a time");
+  expect(error_of({"--ranks=2", "a.prm"}), "'--ranks' requires --estimate");
+  expect(error_of({"--advise", "--restart", "a.prm"}), "only one of");
 }
 
 TEST(Failure, StatusFollowsTheKindOfError)

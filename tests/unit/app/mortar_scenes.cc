@@ -78,8 +78,8 @@ double scatter(const SolvedScene<2> &solved)
 
 const std::vector<std::string> sharp = {"Solver/Relative tolerance=1e-12"};
 
-/// Of the pressures of two states, in the order of the rows, relative to the
-/// largest.
+/// Return the maximum difference of the pressures of two states, in the order of the rows, relative
+/// to the maximum pressure.
 double largest_difference(const SolvedScene<3> &a, const SolvedScene<3> &b)
 {
   EXPECT_EQ(a.state.contact.size(), b.state.contact.size());

@@ -61,7 +61,7 @@ subsection Solver
 end
 )";
 
-/// What an optimizer is told of a scene.
+/// The design problem of a scene, as an optimizer sees it.
 struct Told
 {
   explicit Told(const std::vector<std::string> &sets)
@@ -76,7 +76,7 @@ struct Told
                                                         scene.degree,
                                                         scene::idealization(scene),
                                                         scene.tearing))
-    , evaluator(shape_problem)
+    , evaluator(shape_problem, shape_problem.shapes->start())
     , problem(evaluator.design_problem(shape_problem.shapes->start()))
   {}
 

@@ -61,9 +61,9 @@ std::vector<std::string> edges(const std::vector<std::string> &sets = {})
   return edges_of(SolvedScene<2>(punch_on_block, sets));
 }
 
-const std::vector<std::string> of_punch = {"the pressure of 'punch.bottom: base.top' at a sharp "
-                                           "edge of punch.bottom grows without limit as cells get "
-                                           "smaller"};
+const std::vector<std::string> of_punch = {
+  "the pressure of 'punch.bottom: base.top' at a sharp "
+  "edge of punch.bottom is unbounded under mesh refinement"};
 } // namespace
 
 /// The pressure beside a right-angled punch on a plane is unbounded.

@@ -28,7 +28,7 @@ int n_ranks()
   return size;
 }
 
-/// What everywhere() throws on this rank: type and message.
+/// Type and message of the error that throw_collectively() throws on this rank.
 struct Thrown
 {
   const std::type_info *type;
@@ -39,7 +39,7 @@ Thrown thrown_by(const std::function<void()> &work)
 {
   try
     {
-      everywhere(MPI_COMM_WORLD, work);
+      throw_collectively(MPI_COMM_WORLD, work);
     }
   catch (const std::exception &error)
     {
@@ -67,7 +67,7 @@ void expect_everywhere(const std::function<void()> &fail, const std::string &mes
 }
 
 const std::string no_memory =
-  "out of memory: take a coarser mesh, or spread the ranks over more machines";
+  "out of memory: use a coarser mesh, or distribute the ranks over more machines";
 } // namespace
 
 TEST(Everywhere, KindAndMessageReachAllRanks)
@@ -133,7 +133,7 @@ TEST(Everywhere, TheLowestOfTheFailingRanksSpeaks)
 TEST(Everywhere, NoFailureIsNoError)
 {
   int done = 0;
-  everywhere(MPI_COMM_WORLD, [&] { ++done; });
+  throw_collectively(MPI_COMM_WORLD, [&] { ++done; });
   EXPECT_EQ(done, 1);
 }
 

@@ -210,7 +210,7 @@ TEST(MortarRows, HeldNodesGiveTheirMultipliersAway)
       total += contact.areas(scene.positions)[i];
     }
   EXPECT_NEAR(total, 1., 1e-14);
-  const auto shared = contact.shared_nodes();
+  const auto shared = contact.dependent_multipliers();
   ASSERT_EQ(shared.size(), 1u);
   EXPECT_EQ(scene.positions[shared[0].node][0], 0.);
   ASSERT_EQ(shared[0].rows.size(), 1u);

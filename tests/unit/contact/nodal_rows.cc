@@ -111,7 +111,7 @@ TEST(NodalRows, HangingNodesAreReplacedAndLinearFieldsReproduced)
             }
           // hanging positions follow their masters, so the coefficients
           // without hanging nodes give the same gap, but for that of the edge
-          EXPECT_NEAR(gap + projections[i].relief, rows[i].gap, 1e-13);
+          EXPECT_NEAR(gap + projections[i].softening, rows[i].gap, 1e-13);
           for (const auto &master : projections[i].masters)
             n_replaced += !scene.surface.masters(master.first).empty();
         }

@@ -74,7 +74,7 @@ void expect_linear_reproduction(unsigned int degree)
 /// the tree may not miss the closest face: compare with all faces, from far
 /// and near.
 template <int dim>
-void expect_rays_from_near_the_closest_point(unsigned int degree, double distance)
+void expect_normals_from_near_the_closest_point(unsigned int degree, double distance)
 {
   TwoBoxes<dim> scene(TwoBoxes<dim>::hanging_boxes(), degree);
   scene.bend();
@@ -89,17 +89,17 @@ void expect_rays_from_near_the_closest_point(unsigned int degree, double distanc
   EXPECT_GT(scene.contact().n_rows(), 3u);
   const auto         faces = master_faces(scene);
   const NodalNormals normals(scene.surface, faces, shape, scene.positions);
-  unsigned int       n_rays = 0, n = 0;
+  unsigned int       n_normals = 0, n = 0;
   for (const auto &projection : scene.projections())
     {
-      const auto            &p   = scene.positions[projection.slave];
-      const auto             ray = p - master_point(scene, projection);
+      const auto            &p      = scene.positions[projection.slave];
+      const auto             normal = p - master_point(scene, projection);
       dealii::Tensor<1, dim> v;
       for (const auto &master : projection.masters)
         v += master.second * normals.normals()[master.first];
       v /= v.norm();
       ++n;
-      n_rays += (ray - (ray * v) * v).norm() < 1e-12;
+      n_normals += (normal - (normal * v) * v).norm() < 1e-12;
       double least = 1e300;
       for (const unsigned int f : faces)
         {
@@ -108,10 +108,10 @@ void expect_rays_from_near_the_closest_point(unsigned int degree, double distanc
             nodes.push_back(scene.positions[node]);
           least = std::min(least, closest_point(shape, nodes, p).squared_distance);
         }
-      EXPECT_GE(ray.norm(), std::sqrt(least) - 1e-12);
-      EXPECT_LE(ray.norm(), 1.5 * std::sqrt(least));
+      EXPECT_GE(normal.norm(), std::sqrt(least) - 1e-12);
+      EXPECT_LE(normal.norm(), 1.5 * std::sqrt(least));
     }
-  EXPECT_GT(2 * n_rays, n);
+  EXPECT_GT(2 * n_normals, n);
 }
 } // namespace
 
@@ -131,13 +131,13 @@ TEST(Projection, WeightsReproduceLinearFields)
   expect_linear_reproduction<3>(2);
 }
 
-TEST(Projection, RaysBeginNearTheClosestPoint)
+TEST(Projection, NormalsBeginNearTheClosestPoint)
 {
   for (const double distance : {0.02, 2.})
     for (const unsigned int degree : {1, 2})
       {
-        expect_rays_from_near_the_closest_point<2>(degree, distance);
-        expect_rays_from_near_the_closest_point<3>(degree, distance);
+        expect_normals_from_near_the_closest_point<2>(degree, distance);
+        expect_normals_from_near_the_closest_point<3>(degree, distance);
       }
 }
 
@@ -178,9 +178,9 @@ TEST(Projection, TheMasterGivesWayBeyondItsEdge)
     }
   EXPECT_EQ(beyond, 5u);
   // without a kink at the edge, without a limit where rows end
-  EXPECT_EQ(edge_relief(0., 1.), 0.);
-  EXPECT_LT(edge_relief(0.01 * edge_tolerance, 1.), 3e-10);
-  EXPECT_GT(edge_relief((1. - 1e-9) * edge_tolerance, 1.), 1e6);
+  EXPECT_EQ(edge_softening(0., 1.), 0.);
+  EXPECT_LT(edge_softening(0.01 * edge_tolerance, 1.), 3e-10);
+  EXPECT_GT(edge_softening((1. - 1e-9) * edge_tolerance, 1.), 1e6);
   EXPECT_LT(derivative_error(scene, contact, 1e-4), 1e-9);
 }
 

@@ -1,13 +1,14 @@
 #ifndef snug_tests_unit_contact_two_boxes_h
 #define snug_tests_unit_contact_two_boxes_h
 
+#include <unit/random_field.h>
+
 #include <snug/contact/contact.h>
 #include <snug/contact/projection.h>
 #include <snug/faces/nodal_normals.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 /// A slave box (body 0) whose lower face meets the upper face of a master box
 /// (body 1) at height 1.
@@ -17,14 +18,29 @@ struct TwoBoxes
   using Field  = typename snug::mesh::Surface<dim>::Field;
   using Bodies = std::vector<snug::geometry::BodyMeshParameters>;
 
-  TwoBoxes(const Bodies &bodies, unsigned int degree, MPI_Comm communicator)
-    : mesh(communicator, bodies, degree)
+  TwoBoxes(const Bodies                   &bodies,
+           unsigned int                    degree,
+           MPI_Comm                        communicator,
+           const std::set<dealii::CellId> &refined = {})
+    : mesh(make_mesh(bodies, degree, communicator, refined))
     , surface(mesh, snug::contact::boundaries_of({pair()}))
     , positions(surface.gather(mesh.reference_positions()))
     , held(surface.n_nodes())
   {}
 
   TwoBoxes(const Bodies &bodies, unsigned int degree) : TwoBoxes(bodies, degree, MPI_COMM_WORLD) {}
+
+  /// Return the mesh of the boxes with further cells refined.
+  static snug::mesh::BodyMesh<dim> make_mesh(const Bodies                   &bodies,
+                                             unsigned int                    degree,
+                                             MPI_Comm                        communicator,
+                                             const std::set<dealii::CellId> &refined)
+  {
+    snug::mesh::Forest<dim> forest(communicator, bodies);
+    forest.refine(refined);
+    return {forest, degree, snug::mesh::Idealization::natural(dim),
+            snug::mesh::TearingParameters()};
+  }
 
   /// n_slave and n_master cells per tangent direction.
   static Bodies boxes(unsigned int n_slave, unsigned int n_master)
@@ -126,21 +142,15 @@ struct TwoBoxes
         }
   }
 
-  /// Of displacements.
+  /// Return a random field of displacements.
   Field random_field(unsigned int seed) const { return random_field(seed, surface.n_nodes()); }
 
-  /// Of positions.
+  /// Return a random field of velocities of positions.
   Field random_velocity(unsigned int seed) const { return random_field(seed, surface.n_points()); }
 
   static Field random_field(unsigned int seed, unsigned int size)
   {
-    std::mt19937                           random(seed);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    Field                                  field(size);
-    for (auto &value : field)
-      for (unsigned int d = 0; d < dim; ++d)
-        value[d] = uniform(random);
-    return field;
+    return snug::test::random_field<dim>(size, seed);
   }
 
   bool is_master(unsigned int node) const

@@ -1,6 +1,8 @@
 #ifndef snug_tests_elasticity_cells_h
 #define snug_tests_elasticity_cells_h
 
+#include <unit/random_field.h>
+
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/face_load.h>
 
@@ -12,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -36,18 +37,7 @@ Nodes<dim> cube(const unsigned int degree)
   return X;
 }
 
-/// Random entries in (-1,1).
-template <int dim>
-Nodes<dim> random_field(const std::size_t n, const unsigned int seed)
-{
-  std::mt19937                           generator(seed);
-  std::uniform_real_distribution<double> random(-1., 1.);
-  Nodes<dim>                             field(n);
-  for (auto &vector : field)
-    for (unsigned int d = 0; d < dim; ++d)
-      vector[d] = random(generator);
-  return field;
-}
+using snug::test::random_field;
 
 template <int dim>
 dealii::Tensor<2, dim> random_matrix(const unsigned int seed)

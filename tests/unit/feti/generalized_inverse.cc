@@ -88,7 +88,7 @@ TEST_P(Packages, FollowsNewNumbers)
   EXPECT_EQ(context.work.symbolic_factorizations, 1u);
 }
 
-/// Those of a grid have the same K, and R that differ by rounding.
+/// Subdomains of a grid have the same K, and matrices R that differ by rounding.
 TEST_P(Packages, CongruentSubdomainsShareTheirInverse)
 {
   const auto system = examples()[1];

@@ -16,7 +16,7 @@ using namespace snug::test;
 
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// As the program has them: PETSc's default handler would print.
+/// Factors with the error handler of the program, because PETSc's default handler prints.
 class Factors : public ::testing::TestWithParam<feti::Factorization>
 {
 protected:
@@ -33,8 +33,8 @@ feti::CsrMatrix truss_on_springs()
   return K;
 }
 
-/// What factorizing "the punch" complains of.
-std::string complaint(feti::SparseFactor &factor, const feti::CsrMatrix &A)
+/// Return the error message of the factorization of "the punch".
+std::string failure_reason(feti::SparseFactor &factor, const feti::CsrMatrix &A)
 {
   try
     {
@@ -86,10 +86,10 @@ TEST_P(Factors, SingularMatricesAreErrors)
   for (const auto *matrix : {&floating, &loose, &zero})
     {
       feti::SparseFactor factor(*matrix, feti::MatrixKind::kplus, GetParam());
-      expect_clear(complaint(factor, *matrix));
+      expect_clear(failure_reason(factor, *matrix));
       if (matrix == &loose)
         {
-          ASSERT_EQ(complaint(factor, truss_on_springs()), "");
+          ASSERT_EQ(failure_reason(factor, truss_on_springs()), "");
           expect_inverse(truss_on_springs(), factor);
         }
     }
@@ -111,18 +111,18 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
         K.values[K.position(3, column)] = bad;
         K.values[K.position(column, 3)] = bad;
         SCOPED_TRACE(bad);
-        expect_clear(complaint(factor, K));
+        expect_clear(failure_reason(factor, K));
         K.values = good;
-        ASSERT_EQ(complaint(factor, K), "");
+        ASSERT_EQ(failure_reason(factor, K), "");
         expect_inverse(K, factor);
       }
   // all diagonal entries negative
   for (double &value : K.values)
     value *= -1.;
-  expect_clear(complaint(factor, K));
+  expect_clear(failure_reason(factor, K));
 }
 
-/// Those of PETSc hold while this lives.
+/// This class sets an option of PETSc during its lifetime.
 class PetscOption
 {
 public:
@@ -138,7 +138,7 @@ private:
   std::string name;
 };
 
-/// Of any number of ranks, and also bad matrices are errors on all of them.
+/// Any number of ranks factorizes together, and bad matrices are errors on all of them.
 TEST(TeamFactors, InvertOnAllRanks)
 {
   petsc::return_errors();
@@ -159,8 +159,8 @@ TEST(TeamFactors, InvertOnAllRanks)
                                 nullptr, group);
       for (const auto *bad : {&loose, &not_a_number})
         {
-          expect_clear(complaint(factor, *bad));
-          ASSERT_EQ(complaint(factor, good), "");
+          expect_clear(failure_reason(factor, *bad));
+          ASSERT_EQ(failure_reason(factor, good), "");
           expect_inverse(good, factor);
         }
     }
@@ -192,7 +192,7 @@ TEST_P(Factors, UnitsAreNoErrors)
       for (std::size_t p = 0; p < good.size(); ++p)
         K.values[p] = unit * good[p];
       feti::SparseFactor factor(K, feti::MatrixKind::kplus, GetParam());
-      ASSERT_EQ(complaint(factor, K), "") << unit;
+      ASSERT_EQ(failure_reason(factor, K), "") << unit;
       expect_inverse(K, factor);
     }
 }
@@ -201,7 +201,7 @@ TEST_P(Factors, AnEmptyMatrixHasAnEmptyInverse)
 {
   const auto         empty = feti::CsrMatrix::from_rows({}, 0);
   feti::SparseFactor factor(empty, feti::MatrixKind::kplus, GetParam());
-  EXPECT_EQ(complaint(factor, empty), "");
+  EXPECT_EQ(failure_reason(factor, empty), "");
   expect_inverse(empty, factor);
 }
 
@@ -229,11 +229,11 @@ TEST_P(Factors, PetscOptionsOfAPrefixChooseThePackage)
           }
         EXPECT_NO_THROW(feti::check_factor_options(GetParam()));
         feti::SparseFactor factor(K, feti::MatrixKind::dirichlet, GetParam());
-        ASSERT_EQ(complaint(factor, K), "");
+        ASSERT_EQ(failure_reason(factor, K), "");
         expect_inverse(K, factor);
         // those of another matrix do not hold
         feti::SparseFactor other(K, feti::MatrixKind::kplus, GetParam());
-        ASSERT_EQ(complaint(other, K), "");
+        ASSERT_EQ(failure_reason(other, K), "");
         expect_inverse(K, other);
       }
   const PetscOption wrong("-kplus_pc_type", "jacobi");
@@ -247,7 +247,7 @@ TEST_P(Factors, PetscOptionsNobodyAskedForAreKnown)
     misspelt("-kplus_pc_factor_solver", "mumps"), flag("-k_plus", "");
   const auto         K = truss_on_springs();
   feti::SparseFactor factor(K, feti::MatrixKind::kplus, GetParam());
-  ASSERT_EQ(complaint(factor, K), "");
+  ASSERT_EQ(failure_reason(factor, K), "");
   expect_inverse(K, factor);
   EXPECT_FALSE(is_unused("-kplus_pc_factor_mat_ordering_type rcm"));
   EXPECT_EQ(is_unused("-kplus_mat_cholmod_nmethods 2"), GetParam() != feti::Factorization::CHOLMOD);

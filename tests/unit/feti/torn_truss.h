@@ -25,7 +25,7 @@ public:
   /// Total FETI of this rank's blocks.
   std::unique_ptr<feti::LoadedProblem> make(const feti::FetiParameters &parameters);
 
-  /// Of what make() has made.
+  /// Return the row layout that make() has made.
   const feti::RowLayout &row_layout() const { return *layout; }
 
   /// Values of all rows -> owned ones.

@@ -43,7 +43,7 @@ TEST(Regions, RefinedCellsStayInTheirRegions)
 
 TEST(Regions, WrongFormulasAreNamed)
 {
-  const auto complaint = [](const auto &formulas) {
+  const auto failure_reason = [](const auto &formulas) {
     auto parameters            = layered_box();
     parameters.region_formulas = formulas;
     try
@@ -57,6 +57,6 @@ TEST(Regions, WrongFormulasAreNamed)
     return std::string();
   };
   using Formulas = std::vector<std::pair<std::string, std::string>>;
-  EXPECT_NE(complaint(Formulas{{"core", "x +"}}).find("'Region formulas'"), std::string::npos);
-  EXPECT_NE(complaint(Formulas{{"a", "x"}, {"a", "y"}}).find("twice"), std::string::npos);
+  EXPECT_NE(failure_reason(Formulas{{"core", "x +"}}).find("'Region formulas'"), std::string::npos);
+  EXPECT_NE(failure_reason(Formulas{{"a", "x"}, {"a", "y"}}).find("twice"), std::string::npos);
 }

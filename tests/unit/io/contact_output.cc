@@ -55,13 +55,13 @@ struct ContactScene
     return {mesh, surface, pairs, places, shared};
   }
 
-  mesh::BodyMesh<dim>                   mesh;
-  std::pair<unsigned int, unsigned int> slave, master;
-  mesh::Surface<dim>                    surface;
-  std::vector<contact::JoinedPair>      pairs;
-  std::vector<contact::RowPlace>        places;
-  std::vector<contact::SharedNode>      shared;
-  state::ContactState<dim>              state;
+  mesh::BodyMesh<dim>                       mesh;
+  std::pair<unsigned int, unsigned int>     slave, master;
+  mesh::Surface<dim>                        surface;
+  std::vector<contact::JoinedPair>          pairs;
+  std::vector<contact::RowPlace>            places;
+  std::vector<contact::DependentMultiplier> shared;
+  state::ContactState<dim>                  state;
 };
 
 template <int dim>
@@ -179,9 +179,9 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
   const mesh::Surface<2>                 surface(mesh, {});
   const std::vector<contact::JoinedPair> pairs;
   const std::vector<contact::RowPlace>   places;
-  const std::vector<contact::SharedNode> shared;
-  io::ContactOutput<2>                   output(scratch.path, {});
-  state::ContactState<2>                 state;
+  const std::vector<contact::DependentMultiplier> shared;
+  io::ContactOutput<2>                            output(scratch.path, {});
+  state::ContactState<2>                          state;
   state.positions    = mesh.reference_positions();
   state.displacement = mesh.reference_positions();
   output.write({mesh, surface, pairs, places, shared}, 0., state);

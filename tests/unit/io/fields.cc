@@ -119,7 +119,7 @@ TEST(FieldOutput, HoldsALinearStateIn3D)
   expect_linear_fields<3>(2);
 }
 
-/// Of this rank: as many points as its cells have nodes.
+/// The file of this rank has as many points as its cells have nodes.
 TEST(FieldOutput, CellsShareTheirPoints)
 {
   const test::ScratchDirectory scratch;
@@ -144,11 +144,12 @@ TEST(FieldOutput, WritesWhatIsAskedForAtAnyCompression)
   };
   const auto all = written(a_file_per_rank());
   for (const unsigned int level : {0, 9})
-    EXPECT_EQ(written({scene::OutputParameters().fields, level, 1}).arrays, all.arrays);
+    EXPECT_EQ(written({Verbosity::normal, scene::OutputParameters().fields, level, 1}).arrays,
+              all.arrays);
   auto few = all.arrays;
   for (const char *name : {"stress", "region", "subdomain", "design_displacement"})
     few.erase(name);
-  EXPECT_EQ(written({{"von_mises"}, 1, 1}).arrays, few);
+  EXPECT_EQ(written({Verbosity::normal, {"von_mises"}, 1, 1}).arrays, few);
 }
 
 TEST(FieldOutput, ListsTimesAndPieces)

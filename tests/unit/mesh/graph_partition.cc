@@ -30,7 +30,7 @@ mesh::CellSet<2> square(const unsigned int n, const double a)
   return set;
 }
 
-/// Of square() in n parts: the length of the cuts.
+/// Return the length of the cuts of square() in n parts.
 double cut_length(const unsigned int n, const double a)
 {
   const auto set       = square(n, a);

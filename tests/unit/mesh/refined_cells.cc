@@ -13,11 +13,14 @@ namespace {
 using Bodies = std::vector<geometry::BodyMeshParameters>;
 using Cells  = std::set<dealii::CellId>;
 
-Bodies refined(Bodies bodies, const Cells &cells)
+/// Return the mesh of bodies with cells refined in one step.
+template <int dim>
+mesh::BodyMesh<dim>
+refined(const Bodies &bodies, const Cells &cells, unsigned int degree, MPI_Comm communicator)
 {
-  for (auto &body : bodies)
-    body.refined = std::make_shared<const Cells>(cells);
-  return bodies;
+  mesh::Forest<dim> forest(communicator, bodies);
+  forest.refine(cells);
+  return {forest, degree, mesh::Idealization::natural(dim), mesh::TearingParameters()};
 }
 
 Bodies disc_and_box(unsigned int dim)
@@ -52,8 +55,8 @@ Cells some_cells(const Bodies &bodies, unsigned int degree, MPI_Comm communicato
   Cells cells;
   for (unsigned int step = 0; step < n_steps<dim>; ++step)
     {
-      const mesh::BodyMesh<dim> mesh(communicator, refined(bodies, cells), degree);
-      const auto                all = ids(mesh);
+      const auto mesh = refined<dim>(bodies, cells, degree, communicator);
+      const auto all  = ids(mesh);
       for (unsigned int i = 0; i < all.size(); i += 7)
         mesh::refine(all[i], cells);
     }
@@ -63,11 +66,11 @@ Cells some_cells(const Bodies &bodies, unsigned int degree, MPI_Comm communicato
 template <int dim>
 void check_ranks()
 {
-  const auto                bodies = disc_and_box(dim);
-  const auto                cells  = some_cells<dim>(bodies, 1, MPI_COMM_WORLD);
-  const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, refined(bodies, cells), 1);
+  const auto bodies = disc_and_box(dim);
+  const auto cells  = some_cells<dim>(bodies, 1, MPI_COMM_WORLD);
+  const auto mesh   = refined<dim>(bodies, cells, 1, MPI_COMM_WORLD);
   EXPECT_EQ(cells, some_cells<dim>(bodies, 1, MPI_COMM_SELF));
-  const mesh::BodyMesh<dim> alone(MPI_COMM_SELF, refined(bodies, cells), 1);
+  const auto alone = refined<dim>(bodies, cells, 1, MPI_COMM_SELF);
   EXPECT_EQ(ids(mesh), ids(alone));
   EXPECT_EQ(mesh.n_global_free_nodes(), alone.n_global_free_nodes());
   // what is wanted is there
@@ -81,7 +84,7 @@ void check_balance()
 {
   const auto                bodies = disc_and_box(dim);
   const auto                cells  = some_cells<dim>(bodies, 1, MPI_COMM_SELF);
-  const mesh::BodyMesh<dim> mesh(MPI_COMM_SELF, refined(bodies, cells), 1);
+  const auto                mesh   = refined<dim>(bodies, cells, 1, MPI_COMM_SELF);
   std::vector<unsigned int> least(mesh.n_local_nodes(), 99), most(mesh.n_local_nodes(), 0);
   unsigned int              highest = 0;
   for (unsigned int cell = 0; cell < mesh.cells().size(); ++cell)
@@ -101,10 +104,10 @@ void check_balance()
 template <int dim>
 void check_true_surface(unsigned int degree)
 {
-  const auto                bodies = disc_and_box(dim);
-  const auto                cells  = some_cells<dim>(bodies, degree, MPI_COMM_WORLD);
-  const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, refined(bodies, cells), degree);
-  unsigned int              n = 0;
+  const auto   bodies = disc_and_box(dim);
+  const auto   cells  = some_cells<dim>(bodies, degree, MPI_COMM_WORLD);
+  const auto   mesh   = refined<dim>(bodies, cells, degree, MPI_COMM_WORLD);
+  unsigned int n      = 0;
   for (const auto &face : mesh.boundary_faces())
     if (face.body == 0)
       {
@@ -117,7 +120,55 @@ void check_true_surface(unsigned int degree)
       }
   EXPECT_GT(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 0u);
 }
+/// Return the part of each cell of all ranks.
+template <int dim>
+std::map<dealii::CellId, unsigned int> parts(const mesh::BodyMesh<dim> &mesh)
+{
+  std::map<dealii::CellId, unsigned int> mine, all;
+  for (unsigned int cell = 0; cell < mesh.cells().size(); ++cell)
+    mine[mesh.cell_id(cell)] = mesh.cells()[cell].part;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(
+         mesh.communicator(),
+         std::vector<std::pair<dealii::CellId, unsigned int>>(mine.begin(), mine.end())))
+    all.insert(of_rank.begin(), of_rank.end());
+  return all;
+}
+
+/// Compare the parts of a forest refined step by step with those of a forest refined at once, on
+/// all ranks and on one.
+template <int dim>
+void check_history()
+{
+  const auto        bodies = disc_and_box(dim);
+  mesh::Forest<dim> step_by_step(MPI_COMM_WORLD, bodies);
+  Cells             cells;
+  for (unsigned int step = 0; step < n_steps<dim>; ++step)
+    {
+      const mesh::BodyMesh<dim> untorn(step_by_step, 1, mesh::Idealization::natural(dim), {});
+      const auto                all = ids(untorn);
+      for (unsigned int i = 0; i < all.size(); i += 7)
+        mesh::refine(all[i], cells);
+      step_by_step.refine(cells);
+    }
+  mesh::TearingParameters tearing;
+  tearing.method     = "METIS";
+  tearing.subdomains = 12;
+  const auto natural = mesh::Idealization::natural(dim);
+  const auto found   = parts(mesh::BodyMesh<dim>(step_by_step, 1, natural, tearing));
+  for (MPI_Comm communicator : {MPI_COMM_WORLD, MPI_COMM_SELF})
+    {
+      mesh::Forest<dim> at_once(communicator, bodies);
+      at_once.refine(cells);
+      EXPECT_EQ(found, parts(mesh::BodyMesh<dim>(at_once, 1, natural, tearing)));
+    }
+}
 } // namespace
+
+TEST(RefinedCells, DoNotDependOnTheStepsOfRefinement)
+{
+  check_history<2>();
+  check_history<3>();
+}
 
 TEST(RefinedCells, HaveTheirAncestors)
 {
@@ -156,7 +207,7 @@ TEST(RefinedCells, GoAgain)
   // without the cells: the mesh as given
   const auto              bodies = disc_and_box(2);
   const mesh::BodyMesh<2> given(MPI_COMM_WORLD, bodies, 1);
-  const mesh::BodyMesh<2> none(MPI_COMM_WORLD, refined(bodies, {}), 1);
+  const auto              none = refined<2>(bodies, {}, 1, MPI_COMM_WORLD);
   EXPECT_EQ(ids(given), ids(none));
 }
 

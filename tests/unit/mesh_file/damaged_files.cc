@@ -205,15 +205,14 @@ TEST(DamagedFiles, SetsOfThemselvesDoNotGrow)
     text += "again\n";
   const Row row{"", file_body(), 3, 2};
   expect_error_or_mesh(text, row);
-  EXPECT_EQ(complaint(text, row.parameters, 3), "");
+  EXPECT_EQ(failure_reason(text, row.parameters, 3), "");
 }
 
-TEST(DamagedFiles, SectionsThatOccurTwiceMustAgree)
+TEST(DamagedFiles, NodesThatOccurTwiceAreErrors)
 {
-  // cell numbers of the first cells only
-  const auto text  = contents("block.vtk");
-  const auto cells = text.substr(text.find("CELLS"), text.find("CELL_DATA") - text.find("CELLS"));
-  EXPECT_NE(complaint(text + "\n" + cells, numbered_body(), 3).find("groups of"),
+  const auto text  = contents("block-2.msh");
+  const auto nodes = text.substr(text.find("$Nodes"), text.find("$Elements") - text.find("$Nodes"));
+  EXPECT_NE(failure_reason(text + nodes, file_body(), 3).find("node 1 occurs twice"),
             std::string::npos);
 }
 
@@ -221,7 +220,7 @@ TEST(DamagedFiles, NumbersBeyondTheirTypeAreErrors)
 {
   auto       text = contents("block-2.msh");
   const auto node = text.find("\n1 ", text.find("$Nodes")) + 1;
-  EXPECT_NE(complaint(text.replace(node, 1, "4294967297"), file_body(), 3)
+  EXPECT_NE(failure_reason(text.replace(node, 1, "4294967297"), file_body(), 3)
               .find("a node is too large: 4294967297"),
             std::string::npos);
   // a coordinate of a binary file that no number is
@@ -229,5 +228,5 @@ TEST(DamagedFiles, NumbersBeyondTheirTypeAreErrors)
   const auto   place  = binary.find('\n', binary.find("$Nodes") + 8) + 1 + sizeof(int);
   const double wrong  = NAN;
   binary.replace(place, sizeof wrong, reinterpret_cast<const char *>(&wrong), sizeof wrong);
-  EXPECT_NE(complaint(binary, file_body(), 3).find("a coordinate of node"), std::string::npos);
+  EXPECT_NE(failure_reason(binary, file_body(), 3).find("a coordinate of node"), std::string::npos);
 }

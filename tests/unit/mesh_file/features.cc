@@ -61,8 +61,9 @@ TEST(CurvedSurfaces, CoarseFacetsStayUnlessSmoothIsAskedFor)
 {
   const auto grid = ellipse(20, 2., 2., true); // unequal, up to 28 degrees
   auto       body = grid.body();
-  EXPECT_TRUE(says(notes<2>(grid, body), "boundary top stays facets, as these turn by up to"));
-  EXPECT_TRUE(says(notes<2>(grid, body), "'Surface = top: smooth' smooths it"));
+  EXPECT_TRUE(
+    says(notes<2>(grid, body), "boundary top is kept faceted: neighbouring facets meet at up to"));
+  EXPECT_TRUE(says(notes<2>(grid, body), "'Surface = top: smooth' makes it smooth"));
   const auto circle = [](const Point<2> &x) { return x.distance(Point<2>(1., 2.)) - 2.; };
   EXPECT_GT(error<2>(*make<2>(grid, body), circle), 1e-2);
   body.surfaces = {{"top", "smooth"}};
@@ -70,10 +71,11 @@ TEST(CurvedSurfaces, CoarseFacetsStayUnlessSmoothIsAskedFor)
   for (const std::string value : {"round", ""})
     {
       body.surfaces = {{"top", value}};
-      EXPECT_NE(complaint(grid.text(), body, 2).find("'Surface'"), std::string::npos);
+      EXPECT_NE(failure_reason(grid.text(), body, 2).find("'Surface'"), std::string::npos);
     }
   body.surfaces = {{"bottom", "facets"}};
-  EXPECT_NE(complaint(grid.text(), body, 2).find("the faces are"), std::string::npos);
+  EXPECT_NE(failure_reason(grid.text(), body, 2).find("the boundaries are top, free"),
+            std::string::npos);
 }
 
 TEST(CurvedSurfaces, FeaturesAreKept)
@@ -140,7 +142,7 @@ TEST(CurvedSurfaces, ThinCellsAreNotTangled)
     return Point<3>(r * std::cos(phi), r * std::sin(phi), 0.);
   };
   const auto mesh = mesh_file::import_mesh(grid.text(), grid.body(), 2);
-  EXPECT_TRUE(says(mesh->notes, "of thin cells brought nearer to straight ones"));
+  EXPECT_TRUE(says(mesh->notes, "straightened to keep thin cells valid"));
   for (const auto &block : mesh->flat->blocks)
     {
       const double straight = geometry::least_scaled_jacobian<2>(mesh->flat->vertices, block, {});

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -33,7 +34,7 @@ inline geometry::BodyMeshParameters file_body()
   return parameters;
 }
 
-/// Numbers of VTK and UCD files.
+/// Return the parameters of a body whose file only numbers its groups of faces.
 inline geometry::BodyMeshParameters numbered_body()
 {
   auto parameters             = file_body();
@@ -41,8 +42,9 @@ inline geometry::BodyMeshParameters numbered_body()
   return parameters;
 }
 
-inline std::string
-complaint(const std::string &text, const geometry::BodyMeshParameters &parameters, unsigned int dim)
+inline std::string failure_reason(const std::string                  &text,
+                                  const geometry::BodyMeshParameters &parameters,
+                                  unsigned int                        dim)
 {
   try
     {
@@ -61,6 +63,18 @@ inline std::string replaced(std::string text, const std::string &from, const std
   const auto place = text.find(from);
   EXPECT_NE(place, std::string::npos) << from;
   return text.replace(place, from.size(), to);
+}
+
+/// Return a file of Gmsh's format 2.2. @p nodes has lines "number x y z", and @p elements has lines
+/// "number type 2 group entity nodes".
+inline std::string gmsh_text(const std::string &nodes, const std::string &elements)
+{
+  const auto section = [](const std::string &name, const std::string &lines) {
+    return "$" + name + '\n' + std::to_string(std::count(lines.begin(), lines.end(), '\n')) + '\n' +
+           lines + "$End" + name + '\n';
+  };
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + section("Nodes", nodes) +
+         section("Elements", elements);
 }
 
 template <int dim>
@@ -129,10 +143,7 @@ inline const std::vector<Row> &files()
                                         {"tets-2-binary.msh", file_body(), 3, 48},
                                         {"tets-4-binary.msh", file_body(), 3, 48},
                                         {"block.inp", file_body(), 3, 2},
-                                        {"block.vtk", numbered_body(), 3, 2},
-                                        {"block-binary.vtk", numbered_body(), 3, 2},
-                                        {"block-5-binary.vtk", numbered_body(), 3, 2},
-                                        {"block.ucd", numbered_body(), 3, 2},
+                                        {"block-unnamed.msh", numbered_body(), 3, 2},
                                         {"square.msh", file_body(), 2, 10}};
   return rows;
 }

@@ -10,7 +10,7 @@
 #include <functional>
 
 namespace snug::test {
-/// UCD text of a body made of a grid of n cells; group 1 is the face where the last coordinate of
+/// Gmsh file of a body made of a grid of n cells; group 1 is the face where the last coordinate of
 /// the grid, in [0,1], is 1.
 struct GridText
 {
@@ -22,6 +22,7 @@ struct GridText
 
   std::string text() const
   {
+    constexpr int      line = 1, tri = 2, quad = 3, tet = 4, hex = 5; // types of Gmsh
     const bool         flat = n.size() == 2;
     const unsigned int nx = n[0], ny = flat ? 1 : n[1], nz = n.back();
     const unsigned int px = closed ? nx : nx + 1, py = flat ? 1 : ny + 1;
@@ -35,8 +36,8 @@ struct GridText
             nodes << 1 + i + px * (j + py * k) << ' ' << x << '\n';
           }
     unsigned int number = 0;
-    const auto add = [&](int group, const std::string &shape, const std::vector<unsigned int> &v) {
-      elements << ++number << ' ' << group << ' ' << shape;
+    const auto   add    = [&](int group, int type, const std::vector<unsigned int> &v) {
+      elements << ++number << ' ' << type << " 2 " << group << " 1";
       for (const unsigned int node : v)
         elements << ' ' << node;
       elements << '\n';
@@ -50,14 +51,14 @@ struct GridText
             };
             const bool top = k + 1 == nz;
             if (flat && !simplices)
-              add(5, "quad", {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)});
+              add(5, quad, {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)});
             else if (flat)
               {
-                add(5, "tri", {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1)});
-                add(5, "tri", {at(0, 0, 0), at(1, 0, 1), at(0, 0, 1)});
+                add(5, tri, {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1)});
+                add(5, tri, {at(0, 0, 0), at(1, 0, 1), at(0, 0, 1)});
               }
             else if (!simplices)
-              add(5, "hex",
+              add(5, hex,
                   {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1),
                    at(1, 1, 1), at(0, 1, 1)});
             else
@@ -70,31 +71,30 @@ struct GridText
                                     {{2, 1, 0}}})
                 {
                   std::array<unsigned int, 3> a{{0, 0, 0}};
-                  std::vector<unsigned int>   tet = {at(0, 0, 0)};
+                  std::vector<unsigned int>   corners = {at(0, 0, 0)};
                   for (const int d : o)
                     {
                       a[d] = 1;
-                      tet.push_back(at(a[0], a[1], a[2]));
+                      corners.push_back(at(a[0], a[1], a[2]));
                     }
                   const bool odd = o == std::array<int, 3>{{1, 0, 2}} ||
                                    o == std::array<int, 3>{{0, 2, 1}} ||
                                    o == std::array<int, 3>{{2, 1, 0}};
                   if (odd)
-                    std::swap(tet[2], tet[1]);
-                  add(5, "tet", tet);
+                    std::swap(corners[2], corners[1]);
+                  add(5, tet, corners);
                 }
             if (top && flat)
-              add(1, "line", {at(0, 0, 1), at(1, 0, 1)});
+              add(1, line, {at(0, 0, 1), at(1, 0, 1)});
             else if (top && simplices)
               {
-                add(1, "tri", {at(0, 0, 1), at(1, 0, 1), at(1, 1, 1)});
-                add(1, "tri", {at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)});
+                add(1, tri, {at(0, 0, 1), at(1, 0, 1), at(1, 1, 1)});
+                add(1, tri, {at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)});
               }
             else if (top)
-              add(1, "quad", {at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
+              add(1, quad, {at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
           }
-    return std::to_string(px * py * (nz + 1)) + ' ' + std::to_string(number) + " 0 0 0\n" +
-           nodes.str() + elements.str();
+    return gmsh_text(nodes.str(), elements.str());
   }
 
   geometry::BodyMeshParameters body() const

@@ -8,9 +8,9 @@ using namespace snug::test;
 using dealii::Point;
 
 namespace {
-/// What gmsh moved the nodes of reference elements by before it wrote the files in
-/// tests/meshes/quadratic: of degree 2, and of degree 2 in each coordinate for elements with
-/// nodes in the middle of faces, of a prism without x^2 y^2.
+/// Return the displacement by which gmsh moved the nodes of reference elements before it wrote the
+/// files in tests/meshes/quadratic: of degree 2, and of degree 2 in each coordinate for elements
+/// with nodes in the middle of faces, for a prism without x^2 y^2.
 template <int dim>
 Point<dim> moved(const Point<dim> &p, const bool all, const bool cube)
 {
@@ -29,7 +29,7 @@ Point<dim> moved(const Point<dim> &p, const bool all, const bool cube)
 
 struct Element
 {
-  std::string name, corners, ucd;
+  std::string name, nodes, element; ///< lines of gmsh_text()
   bool        all;
 };
 
@@ -74,7 +74,7 @@ template <int dim>
 void expect_isoparametric(const Element &element, const std::string &ending)
 {
   SCOPED_TRACE(element.name + ending);
-  const auto reference = body_of<dim>(element.corners + element.ucd);
+  const auto reference = body_of<dim>(gmsh_text(element.nodes, element.element));
   const auto curved    = body_of<dim>(contents("quadratic/" + element.name + ending));
   for (const auto &point : boundary_points(*reference))
     EXPECT_NEAR(curved->position(point).distance(
@@ -88,26 +88,26 @@ void expect_isoparametric(const Element &element, const std::string &ending)
 
 TEST(SecondOrder, BoundariesAreIsoparametricInEveryFormat)
 {
-  const std::string hex   = "8 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n"
+  const std::string hex   = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n"
                             "7 1 1 1\n8 0 1 1\n";
-  const std::string prism = "6 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n";
-  const std::string tet   = "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
-  const std::string tri   = "3 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
-  const std::string quad  = "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
-  for (const std::string ending : {".msh", ".inp", ".vtk"})
+  const std::string prism = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n";
+  const std::string tet   = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+  const std::string tri   = "1 0 0 0\n2 1 0 0\n3 0 1 0\n";
+  const std::string quad  = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
+  for (const std::string ending : {".msh", ".inp"})
     {
-      expect_isoparametric<2>({"tri6", tri, "1 1 tri 1 2 3\n", false}, ending);
-      expect_isoparametric<2>({"quad8", quad, "1 1 quad 1 2 3 4\n", false}, ending);
-      expect_isoparametric<2>({"quad9", quad, "1 1 quad 1 2 3 4\n", true}, ending);
-      expect_isoparametric<3>({"tet10", tet, "1 1 tet 1 2 3 4\n", false}, ending);
-      expect_isoparametric<3>({"prism15", prism, "1 1 prism 1 2 3 4 5 6\n", false}, ending);
-      if (ending != ".inp")
-        expect_isoparametric<3>({"prism18", prism, "1 1 prism 1 2 3 4 5 6\n", true}, ending);
-      expect_isoparametric<3>({"hex20", hex, "1 1 hex 1 2 3 4 5 6 7 8\n", false}, ending);
-      expect_isoparametric<3>({"hex27", hex, "1 1 hex 1 2 3 4 5 6 7 8\n", true}, ending);
+      expect_isoparametric<2>({"tri6", tri, "1 2 2 1 1 1 2 3\n", false}, ending);
+      expect_isoparametric<2>({"quad8", quad, "1 3 2 1 1 1 2 3 4\n", false}, ending);
+      expect_isoparametric<2>({"quad9", quad, "1 3 2 1 1 1 2 3 4\n", true}, ending);
+      expect_isoparametric<3>({"tet10", tet, "1 4 2 1 1 1 2 3 4\n", false}, ending);
+      expect_isoparametric<3>({"prism15", prism, "1 6 2 1 1 1 2 3 4 5 6\n", false}, ending);
+      if (ending == ".msh")
+        expect_isoparametric<3>({"prism18", prism, "1 6 2 1 1 1 2 3 4 5 6\n", true}, ending);
+      expect_isoparametric<3>({"hex20", hex, "1 5 2 1 1 1 2 3 4 5 6 7 8\n", false}, ending);
+      expect_isoparametric<3>({"hex27", hex, "1 5 2 1 1 1 2 3 4 5 6 7 8\n", true}, ending);
     }
-  expect_isoparametric<3>({"hex20", hex, "1 1 hex 1 2 3 4 5 6 7 8\n", false}, "-4.msh");
-  expect_isoparametric<3>({"hex27", hex, "1 1 hex 1 2 3 4 5 6 7 8\n", true}, "-4-binary.msh");
+  expect_isoparametric<3>({"hex20", hex, "1 5 2 1 1 1 2 3 4 5 6 7 8\n", false}, "-4.msh");
+  expect_isoparametric<3>({"hex27", hex, "1 5 2 1 1 1 2 3 4 5 6 7 8\n", true}, "-4-binary.msh");
 }
 
 TEST(SecondOrder, SplitTetrahedraMeetOnTheirSharedFaces)
@@ -118,10 +118,11 @@ TEST(SecondOrder, SplitTetrahedraMeetOnTheirSharedFaces)
   for (unsigned int i = 0; i < 27; ++i)
     {
       const Point<3> x((i % 3) / 2., (i / 3 % 3) / 2., (i / 9) / 2.);
-      points[0] << x << '\n';
-      points[1] << moved(x, false, true) << '\n';
+      points[0] << i + 1 << ' ' << x << '\n';
+      points[1] << i + 1 << ' ' << moved(x, false, true) << '\n';
     }
-  std::array<int, 3> axes = {{1, 3, 9}};
+  std::array<int, 3> axes   = {{1, 3, 9}};
+  unsigned int       number = 0;
   do
     {
       // along the axes from a corner to the opposite one
@@ -129,27 +130,21 @@ TEST(SecondOrder, SplitTetrahedraMeetOnTheirSharedFaces)
       if ((axes[0] < axes[1]) + (axes[1] < axes[2]) + (axes[0] < axes[2]) != 3 &&
           (axes[0] < axes[1]) + (axes[1] < axes[2]) + (axes[0] < axes[2]) != 1)
         std::swap(tet[1], tet[2]);
-      cells[0] << 4;
-      cells[1] << 10;
+      ++number;
+      cells[0] << number << " 4 2 1 1";
+      cells[1] << number << " 11 2 1 1";
       for (const int corner : tet)
         for (auto &text : cells)
-          text << ' ' << corner;
+          text << ' ' << corner + 1;
       for (const auto &edge :
-           {std::array<int, 2>{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{1, 3}}, {{2, 3}}})
-        cells[1] << ' ' << (tet[edge[0]] + tet[edge[1]]) / 2;
+           {std::array<int, 2>{{0, 1}}, {{1, 2}}, {{2, 0}}, {{0, 3}}, {{2, 3}}, {{1, 3}}})
+        cells[1] << ' ' << (tet[edge[0]] + tet[edge[1]]) / 2 + 1;
       for (auto &text : cells)
         text << '\n';
   } while (std::next_permutation(axes.begin(), axes.end()));
   std::unique_ptr<geometry::BodyGeometry<3>> body[2];
   for (const unsigned int order : {0, 1})
-    {
-      const std::string type = order == 0 ? "10\n" : "24\n";
-      body[order] =
-        body_of<3>("# vtk DataFile Version 2.0\ntets\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-                   "POINTS 27 double\n" +
-                   points[order].str() + "CELLS 6 66\n" + cells[order].str() + "CELL_TYPES 6\n" +
-                   type + type + type + type + type + type);
-    }
+    body[order] = body_of<3>(gmsh_text(points[order].str(), cells[order].str()));
   expect_continuous(*body[1]);
   for (const auto &point : boundary_points(*body[0]))
     EXPECT_NEAR(body[1]->position(point).distance(moved(body[0]->position(point), false, true)), 0.,
@@ -158,20 +153,20 @@ TEST(SecondOrder, SplitTetrahedraMeetOnTheirSharedFaces)
 
 TEST(SecondOrder, StraightElementsAreLeftAsTheyAre)
 {
-  // block.inp has 8 nodes a cell; give the edges of its first cell middle nodes at 0.5
-  const std::string vtk =
-    "# vtk DataFile Version 2.0\nsquare\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
-    "0.1 0 0\n1 0 0\n1 1 0\n0.1 1 0\n0.55 0 0\n1 0.5 0\n0.55 1 0\n0.1 0.5 0\n"
-    "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n23\n";
-  const auto mesh = mesh_file::import_mesh(vtk, file_body(), 2)->flat;
+  const std::string square =
+    gmsh_text("1 0.1 0 0\n2 1 0 0\n3 1 1 0\n4 0.1 1 0\n5 0.55 0 0\n6 1 0.5 0\n7 0.55 1 0\n"
+              "8 0.1 0.5 0\n",
+              "1 16 2 1 1 1 2 3 4 5 6 7 8\n");
+  const auto mesh = mesh_file::import_mesh(square, file_body(), 2)->flat;
   EXPECT_TRUE(mesh->pieces.empty());
   // a middle node away from the middle of a straight edge is one all the same
-  const auto moved = mesh_file::import_mesh(replaced(vtk, "0.55 0 0", "0.6 0 0"), file_body(), 2);
-  auto       body  = file_body();
-  body.imported    = moved;
+  const auto moved =
+    mesh_file::import_mesh(replaced(square, "0.55 0 0", "0.6 0 0"), file_body(), 2);
+  auto body     = file_body();
+  body.imported = moved;
   EXPECT_EQ(geometry::make_geometry<2>(body)->position({0, Point<2>(0.5, 0.)}), Point<2>(0.6, 0.));
   body.surfaces["free"] = "facets";
-  body.imported         = mesh_file::import_mesh(replaced(vtk, "0.55 0 0", "0.6 0 0"), body, 2);
+  body.imported         = mesh_file::import_mesh(replaced(square, "0.55 0 0", "0.6 0 0"), body, 2);
   EXPECT_TRUE(body.imported->flat->pieces.empty());
 }
 

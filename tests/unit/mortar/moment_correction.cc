@@ -6,6 +6,7 @@
 #include <random>
 
 using namespace snug;
+using namespace snug::faces;
 using namespace snug::mortar;
 
 namespace {
@@ -13,11 +14,11 @@ namespace {
 template <int dim>
 struct RowOfNodes
 {
-  using Vector = std::array<double, dim>;
+  using Vector = dealii::Tensor<1, dim>;
 
   std::vector<Vector> x;
   std::vector<double> coefficients, weights;
-  Vector              n{};
+  Vector              n;
 
   explicit RowOfNodes(unsigned int seed)
   {
@@ -27,74 +28,75 @@ struct RowOfNodes
     for (unsigned int k = 0; k < 6; ++k)
       {
         x.emplace_back();
-        for (double &c : x.back())
-          c = uniform(random);
+        for (int i = 0; i < dim; ++i)
+          x.back()[i] = uniform(random);
         weights.push_back(k == 0 ? 0. : 0.1 + std::abs(uniform(random)));
         coefficients.push_back(k == 0 ? 1. : -std::abs(uniform(random)));
         sum += coefficients.back();
       }
     coefficients[0] -= sum;
-    double square = 0.;
-    for (double &c : n)
-      {
-        c = uniform(random);
-        square += c * c;
-      }
-    for (double &c : n)
-      c /= std::sqrt(square);
+    for (int i = 0; i < dim; ++i)
+      n[i] = uniform(random);
+    n /= n.norm();
   }
 
-  MomentCorrection<dim, double> correction() const { return {x, coefficients, weights, n}; }
+  std::vector<double> correction() const { return moment_correction(x, coefficients, weights, n); }
 };
 
 template <int dim>
 void expect_no_moment(unsigned int seed)
 {
-  const RowOfNodes<dim>   row(seed);
-  const auto              dM    = row.correction().masses();
-  double                  total = 0., along = 0.;
-  std::array<double, dim> lever{};
+  const RowOfNodes<dim>  row(seed);
+  const auto             dM    = row.correction();
+  double                 total = 0.;
+  dealii::Tensor<1, dim> lever;
   for (unsigned int k = 0; k < row.x.size(); ++k)
     {
       total += dM[k];
-      for (int i = 0; i < dim; ++i)
-        lever[i] -= (row.coefficients[k] - dM[k]) * row.x[k][i];
+      lever -= (row.coefficients[k] - dM[k]) * row.x[k];
     }
   EXPECT_EQ(dM[0], 0.);
   EXPECT_NEAR(total, 0., 1e-14);
-  for (int i = 0; i < dim; ++i)
-    along += lever[i] * row.n[i];
-  for (int i = 0; i < dim; ++i)
-    EXPECT_NEAR(lever[i], along * row.n[i], 1e-13);
+  EXPECT_NEAR((lever - (lever * row.n) * row.n).norm(), 0., 1e-13);
 }
 
-/// gradient() against differences of fourth order, in all that a correction is made of; the normal
-/// stays a unit vector.
+/// @p values as variables of @p recording.
+std::vector<Recorded> variables(const std::vector<double> &values, Recording &recording)
+{
+  std::vector<Recorded> result;
+  for (const double value : values)
+    result.push_back(recording.variable(value));
+  return result;
+}
+
+template <int dim>
+dealii::Tensor<1, dim, Recorded> variables(const dealii::Tensor<1, dim> &v, Recording &recording)
+{
+  dealii::Tensor<1, dim, Recorded> result;
+  for (int i = 0; i < dim; ++i)
+    result[i] = recording.variable(v[i]);
+  return result;
+}
+
+/// The recorded gradient against differences of fourth order, in all that a correction is made of;
+/// the normal stays a unit vector.
 template <int dim>
 void expect_gradient(unsigned int seed)
 {
   const RowOfNodes<dim> row(seed);
   const RowOfNodes<dim> other(seed + 100);
-  const auto           &q        = other.weights;
-  const auto            gradient = row.correction().gradient(q);
-  const auto            value    = [&](double t) {
-    RowOfNodes<dim> moved  = row;
-    double          square = 0.;
+  const auto           &q     = other.weights;
+  const auto            value = [&](double t) {
+    RowOfNodes<dim> moved = row;
     for (unsigned int k = 0; k < row.x.size(); ++k)
       {
         moved.coefficients[k] += t * other.coefficients[k];
         moved.weights[k] += t * other.weights[k];
-        for (int i = 0; i < dim; ++i)
-          moved.x[k][i] += t * other.x[k][i];
+        moved.x[k] += t * other.x[k];
       }
-    for (int i = 0; i < dim; ++i)
-      {
-        moved.n[i] += t * other.n[i];
-        square += moved.n[i] * moved.n[i];
-      }
-    for (double &c : moved.n)
-      c /= std::sqrt(square);
-    const auto dM  = moved.correction().masses();
+    moved.n += t * other.n;
+    moved.n /= moved.n.norm();
+    const auto dM  = moved.correction();
     double     sum = 0.;
     for (unsigned int k = 0; k < dM.size(); ++k)
       sum += q[k] * dM[k];
@@ -103,18 +105,29 @@ void expect_gradient(unsigned int seed)
   const double h = 1e-4;
   const double slope =
     (value(-2. * h) - 8. * value(-h) + 8. * value(h) - value(2. * h)) / (12. * h);
-  double exact = 0., along = 0.;
-  for (int i = 0; i < dim; ++i)
-    along += row.n[i] * other.n[i];
+
+  Recording                                     recording;
+  std::vector<dealii::Tensor<1, dim, Recorded>> x;
+  for (const auto &place : row.x)
+    x.push_back(variables(place, recording));
+  const auto coefficients = variables(row.coefficients, recording);
+  const auto weights      = variables(row.weights, recording);
+  const auto n            = variables(row.n, recording);
+  const auto dM           = moment_correction(x, coefficients, weights, n);
+  for (unsigned int k = 0; k < dM.size(); ++k)
+    recording.add(dM[k], q[k]);
+  recording.sweep();
+  double     exact = 0.;
+  const auto dn    = other.n - (row.n * other.n) * row.n;
   for (unsigned int k = 0; k < row.x.size(); ++k)
     {
-      exact +=
-        gradient.coefficients[k] * other.coefficients[k] + gradient.weights[k] * other.weights[k];
+      exact += recording.derivative(coefficients[k]) * other.coefficients[k] +
+               recording.derivative(weights[k]) * other.weights[k];
       for (int i = 0; i < dim; ++i)
-        exact += gradient.x[k][i] * other.x[k][i];
+        exact += recording.derivative(x[k][i]) * other.x[k][i];
     }
   for (int i = 0; i < dim; ++i)
-    exact += gradient.n[i] * (other.n[i] - along * row.n[i]);
+    exact += recording.derivative(n[i]) * dn[i];
   EXPECT_NEAR(exact, slope, 1e-9 * std::max(1., std::abs(slope)));
 }
 } // namespace

@@ -1,5 +1,5 @@
 #include <snug/mesh/lagrange.h>
-#include <snug/mortar/integral_gradient.h>
+#include <snug/mortar/mortar_coupling.h>
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ std::vector<double> random_vector(std::size_t n)
   return v;
 }
 
-/// Of the coupling of @p integrals, and the weights that corrections take from these.
+/// Return the entries of the coupling of @p integrals, and the weights of the corrections.
 template <typename Number>
 std::vector<Number> entries(const FaceIntegrals<Number> &integrals,
                             const MultiplierFunctions   &functions)
@@ -126,28 +126,26 @@ std::vector<Number> entries(const FaceIntegrals<Number> &integrals,
 }
 
 /// The gradient by the integrals where that by the entries is @p values.
+template <int dim>
 FaceIntegrals<double> by_integrals(const std::vector<double>   &values,
                                    const FaceIntegrals<double> &integrals,
                                    const MultiplierFunctions   &functions)
 {
-  FaceCoupling<double> result = couple(integrals, functions);
-  unsigned int         next   = 0;
-  for (double &value : result.multiplier)
-    value = values[next++];
-  const auto take = [&](dealii::Table<2, double> &m) {
-    for (unsigned int i = 0; i < m.n_rows(); ++i)
-      for (unsigned int j = 0; j < m.n_cols(); ++j)
-        m(i, j) = values[next++];
-  };
-  take(result.multiplier_slave);
-  for (auto &m : result.multiplier_master)
-    take(m);
-  take(result.multiplier_offset);
-  auto gradient    = couple_transpose(integrals, functions, result);
-  gradient.weights = integrals.weights;
-  for (auto &m : gradient.weights)
-    take(m);
-  return gradient;
+  const auto numbers = to_numbers(integrals);
+  auto       next    = numbers.begin();
+  Recording  recording;
+  auto       variables =
+    zero_integrals<dim, Recorded>(integrals.slave.size(), integrals.slave_master.size());
+  for_each_number(variables, [&](Recorded &number) { number = recording.variable(*next++); });
+  const auto results = entries(variables, functions);
+  for (unsigned int i = 0; i < results.size(); ++i)
+    recording.add(results[i], values[i]);
+  recording.sweep();
+  std::vector<double> slopes;
+  for_each_number(variables,
+                  [&](const Recorded &number) { slopes.push_back(recording.derivative(number)); });
+  return from_numbers<dim, double>(integrals.slave.size(), integrals.slave_master.size(),
+                                   slopes.begin());
 }
 
 template <int dim>
@@ -197,6 +195,23 @@ moving(const MortarFace<dim, double> &face, const std::vector<double> &velocity,
   return {move(face.nodes), move(face.offsets)};
 }
 
+/// Nodes and offsets of a face as variables, which are added to @p all in the order of
+/// coordinates().
+template <int dim>
+MortarFace<dim, Recorded>
+recorded(const MortarFace<dim, double> &face, Recording &recording, std::vector<Recorded> &all)
+{
+  const auto record = [&](const FaceNodes<dim, double> &points) {
+    FaceNodes<dim, Recorded> result(points.size());
+    for (unsigned int k = 0; k < points.size(); ++k)
+      for (int i = 0; i < dim; ++i)
+        all.push_back(result[k][i] = recording.variable(points[k][i]));
+    return result;
+  };
+  // Braced, so that the nodes come first.
+  return {record(face.nodes), record(face.offsets)};
+}
+
 template <int dim>
 std::vector<double> exact_derivative(unsigned int               degree,
                                      const Faces<dim>          &faces,
@@ -242,20 +257,23 @@ void expect_derivatives(unsigned int degree, const MultiplierFunctions &function
   EXPECT_LT(error, 1e-8 * largest) << dim << "D, degree " << degree;
 
   // the transpose: of random weights on the entries
-  const auto quadrature = rule<dim>(degree);
-  const auto integrals  = integrate<dim>(quadrature, faces.slave, faces.masters);
-  const auto weights    = random_vector(exact.size());
-  const auto gradient   = integrate_transpose<dim>(quadrature, faces.slave, faces.masters,
-                                                   by_integrals(weights, integrals, functions));
-  Faces<dim> reverse    = faces;
-  reverse.slave         = gradient.slave;
-  reverse.masters       = gradient.masters;
-  const auto slopes     = reverse.coordinates();
-  double     direct = 0., transposed = 0.;
+  const auto            quadrature = rule<dim>(degree);
+  const auto            integrals  = integrate<dim>(quadrature, faces.slave, faces.masters);
+  const auto            weights    = random_vector(exact.size());
+  Recording             recording;
+  std::vector<Recorded> variables;
+  const auto            slave = recorded<dim>(faces.slave, recording, variables);
+  std::vector<MortarFace<dim, Recorded>> masters;
+  for (const auto &master : faces.masters)
+    masters.push_back(recorded<dim>(master, recording, variables));
+  add_integral_derivatives(quadrature, slave, masters,
+                           by_integrals<dim>(weights, integrals, functions), recording);
+  recording.sweep();
+  double direct = 0., transposed = 0.;
   for (unsigned int i = 0; i < exact.size(); ++i)
     direct += weights[i] * exact[i];
-  for (unsigned int i = 0; i < slopes.size(); ++i)
-    transposed += slopes[i] * velocity[i];
+  for (unsigned int i = 0; i < variables.size(); ++i)
+    transposed += recording.derivative(variables[i]) * velocity[i];
   EXPECT_NEAR(direct, transposed, 1e-11 * largest * exact.size());
 }
 } // namespace

@@ -108,7 +108,8 @@ TEST(Algorithms, AcceptViolationsUpToTheConstraintTolerance)
         parameters.maximum_evaluations  = 1;
         const auto result               = minimize(problem, parameters);
         EXPECT_NEAR(result.constraint_violation, 1e-3, 1e-9) << to_text(algorithm);
-        EXPECT_EQ(complaint(result, parameters).empty(), tolerance > 1e-3) << to_text(algorithm);
+        EXPECT_EQ(failure_reason(result, parameters).empty(), tolerance > 1e-3)
+          << to_text(algorithm);
       }
 }
 
@@ -165,8 +166,8 @@ static DesignProblem blind(const std::vector<double> &t,
   return problem;
 }
 
-/// As the volume of a symmetric body: the least over all slopes of a
-/// constraint says nothing at the start.
+/// The gradient of the constraint vanishes at the start, like that of the volume of a symmetric
+/// body.
 TEST(Algorithms, LeaveAStartWhereAConstraintHasNoGradient)
 {
   const std::vector<double> t = {0.5, 0.2};
@@ -232,7 +233,7 @@ TEST(Algorithms, NoSuccessWhereOnlyTheStartMeetsAnEquality)
 {
   const auto result = minimize(blind({0.5, 0.2}, 1., 1., Relation::equal), with(Algorithm::SLSQP));
   EXPECT_FALSE(result.success) << result.stop_reason;
-  EXPECT_NE(complaint(result, with(Algorithm::SLSQP)), "");
+  EXPECT_NE(failure_reason(result, with(Algorithm::SLSQP)), "");
 }
 
 /// A limit of round-off, as of a displacement that symmetry forbids.

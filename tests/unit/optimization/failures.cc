@@ -66,16 +66,17 @@ TEST(SlsqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
   const auto result              = minimize(rosenbrock_on_circle(), parameters);
   EXPECT_EQ(result.stop_reason, "maximum evaluations");
   for (const double violation : {0., 0.9, 1.1, 1e5})
-    for (const End end : {End::interrupted, End::evaluations, End::round_off})
+    for (const StopReason end :
+         {StopReason::interrupted, StopReason::evaluations, StopReason::round_off})
       {
         auto other                 = result;
         other.end                  = end;
         other.constraint_violation = violation * parameters.constraint_tolerance;
-        const auto text            = complaint(other, parameters);
-        EXPECT_EQ(text.empty(), violation < 1. && end != End::round_off);
+        const auto text            = failure_reason(other, parameters);
+        EXPECT_EQ(text.empty(), violation < 1. && end != StopReason::round_off);
         EXPECT_EQ(text.find("violates") != std::string::npos, violation > 1.);
       }
-  EXPECT_EQ(complaint(minimize(rosenbrock_on_circle(), tight()), tight()), "");
+  EXPECT_EQ(failure_reason(minimize(rosenbrock_on_circle(), tight()), tight()), "");
 }
 
 /// Wherever the evaluations run out, also within a line search.

@@ -222,7 +222,7 @@ TEST(Journal, AnotherDesignCutsTheRecordAndStartsCold)
   EXPECT_EQ(contents.records[1].x, (std::vector<double>{0.2, 0.8}));
 }
 
-/// As on another number of ranks, where the designs asked for differ by rounding.
+/// Requested designs differ by rounding, like those on another number of ranks.
 TEST(Journal, DesignsThatAgreeToTheToleranceAreReplayed)
 {
   Folder      folder;

@@ -137,7 +137,7 @@ with_hole(snug::optimization::DesignProblem problem, double from, double to)
   return problem;
 }
 
-/// Of the normal distribution.
+/// Return a vector of normally distributed numbers.
 inline std::vector<double> random_vector(std::mt19937 &random, const unsigned int n)
 {
   std::normal_distribution<double> normal;

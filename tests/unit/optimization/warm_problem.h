@@ -15,7 +15,7 @@
 #include <fstream>
 #include <sstream>
 
-/// What a kill looks like from inside.
+/// Exception that stands for the end of the process by a signal.
 struct Killed : std::runtime_error
 {
   Killed() : std::runtime_error("killed") {}

@@ -103,7 +103,8 @@ TEST(Displacement, OfALinearFieldIsExact)
   check_displacements<3>(1);
 }
 
-std::string complaint(const Problem<2> &problem, const response::ResponseParameters &parameters)
+std::string failure_reason(const Problem<2>                   &problem,
+                           const response::ResponseParameters &parameters)
 {
   try
     {
@@ -124,15 +125,15 @@ TEST(Displacement, PointsMustLieInOneBody)
   parameters.quantity  = "displacement";
   parameters.component = response::Component::x;
   parameters.point     = {0.5, 2.01};
-  EXPECT_EQ(complaint(problem, parameters),
+  EXPECT_EQ(failure_reason(problem, parameters),
             "entry 'Response tip/Point' = '0.5, 2.01': lies outside the "
             "bodies");
   parameters.point = {0.5, 1.};
-  EXPECT_EQ(complaint(problem, parameters),
+  EXPECT_EQ(failure_reason(problem, parameters),
             "entry 'Response tip/Point' = '0.5, 1': lies in the bodies punch, "
             "foundation: name one with 'Body'");
   parameters.body = "punch";
-  EXPECT_EQ(complaint(problem, parameters), "");
+  EXPECT_EQ(failure_reason(problem, parameters), "");
 }
 
 template <int dim>

@@ -124,20 +124,20 @@ TEST(Errors, BodiesAndBoundaries)
   EXPECT_EQ(error_of({}, "set Dimension = 2\n"),
             "scene.prm: entry 'Bodies' = '': must name at least one body");
   expect_error({"Body punch/Supports", "topp: z", "did you mean 'top'?"});
-  expect_error({"Body punch/Supports", "top: w", "'w' is no component"});
+  expect_error({"Body punch/Supports", "top: w", "'w' is not a component"});
   expect_error({"Body punch/Supports", "top: xx", "'x' occurs twice"});
   expect_error({"Body punch/Supports", "top", "boundary: components"});
   expect_error({"Body punch/Supports", "top: normals", "x, y, z and normal"});
   const std::string drive = "Body punch/Displacement";
   expect_error({drive, "topp: z = 1", "did you mean 'top'?"});
   expect_error({drive, "top: z", "'component = formula'"});
-  expect_error({drive, "top: w = 1", "'w' is no component"});
+  expect_error({drive, "top: w = 1", "'w' is not a component"});
   expect_error({drive, "top: z = x +", "formula of x,y,z"});
   expect_error({drive, "top: z = 1, top: z = 2", "'z' of 'top' is held twice"});
   expect_error({drive, "left: x = 1", "by 'Supports' as well"});
   EXPECT_EQ(error_of({drive + "=top: z = max(x, y), top: x = -0.01"}), "");
   expect_error({"Body punch/Pressure", "side: 1", "left, right, front, back"});
-  expect_error({"Body punch/Traction", "side: 1 0 0", "is no boundary"});
+  expect_error({"Body punch/Traction", "side: 1 0 0", "is not a boundary"});
   expect_error({"Body punch/Curved faces", "side: sphere 4", "the faces are"});
   expect_error({"Contact/Pairs", "punch.bottom: foundaton.top", "did you mean 'foundation'?"});
   expect_error({"Contact/Pairs", "punch.bottom: foundation.side", "bottom, top"});
@@ -213,7 +213,7 @@ TEST(Errors, Designs)
   expect_error({"Shape/Direction", "0, 0, 0", "not all zero"});
   EXPECT_TRUE(has(error_of({"Shape/Initial=0.3"}), "0.3 must lie within the bounds -0.25, 0.25"));
   expect_error({"Shape/Initial", "0, 0, 0, 0, 0, -0.3", "within the bounds"});
-  expect_error({"Shape/Basis", "none", "for the task optimize"});
+  expect_error({"Shape/Basis", "none", "Task = optimize needs design variables"});
   EXPECT_EQ(error_of({"Shape/Basis=none", "Task=state"}), "");
   expect_error({"Shapes", "a, a", "must not occur twice"});
   expect_error({"Shapes", "a/b", "letters"});

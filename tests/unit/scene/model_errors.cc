@@ -23,7 +23,8 @@ TEST(Errors, LoadCases)
   expect_error({"Optimization/Constraints", "strain energy: 1",
                 "its load case: 'closing.strain energy'"},
                two);
-  expect_error({"Optimization/Constraints", "closing.beauty: 1", "'beauty' is no response"}, two);
+  expect_error({"Optimization/Constraints", "closing.beauty: 1", "'beauty' is not a response"},
+               two);
   expect_error({"Optimization/Combine", "best", "sum, worst"}, two);
   EXPECT_EQ(error_of({"Load cases=closing, opening",
                       "Optimization/Constraints=closing.strain energy: "
@@ -68,7 +69,7 @@ TEST(Errors, RegionsHaveOneMaterial)
     EXPECT_TRUE(has(message, "--set: entry 'Body bar/Materials'")) << message;
     EXPECT_TRUE(has(message, part)) << message;
   };
-  says("stele", "none of the 'Materials' of the scene, steel, rubber; did you");
+  says("stele", "not one of the 'Materials' of the scene, steel, rubber; did you");
   says("core: steel", "the region 'body' has no material");
   says("core: steel, boddy: steel", "did you mean 'body'?");
   says("core: steel, core: rubber", "different regions");

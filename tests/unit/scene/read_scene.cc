@@ -142,7 +142,7 @@ TEST(ReadScene, RefusesBytesThatAreZero)
     }
   catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find("holds a byte that is zero"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("contains a null byte"), std::string::npos);
     }
 }
 
@@ -268,8 +268,8 @@ TEST(ReadText, GivesTheContentsOfAFile)
 
 TEST(ReadText, TakesDevicesAndPipesOnlyIfAskedAndOnlyIfTheyEnd)
 {
-  using Source         = scene::TextSource;
-  const auto complaint = [](const std::string &file, const Source source) -> std::string {
+  using Source              = scene::TextSource;
+  const auto failure_reason = [](const std::string &file, const Source source) -> std::string {
     try
       {
         scene::read_text(file, MPI_COMM_WORLD, source);
@@ -280,16 +280,16 @@ TEST(ReadText, TakesDevicesAndPipesOnlyIfAskedAndOnlyIfTheyEnd)
         return error.what();
       }
   };
-  EXPECT_NE(complaint("/dev/zero", Source::regular_file).find("must be a regular file"),
+  EXPECT_NE(failure_reason("/dev/zero", Source::regular_file).find("must be a regular file"),
             std::string::npos);
-  EXPECT_NE(complaint("/dev/zero", Source::any).find("more than 16 MB"), std::string::npos);
-  EXPECT_EQ(complaint("/dev/null", Source::any), "");
+  EXPECT_NE(failure_reason("/dev/zero", Source::any).find("more than 16 MB"), std::string::npos);
+  EXPECT_EQ(failure_reason("/dev/null", Source::any), "");
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   ASSERT_EQ(write(ends[1], "set Task = state", 16), 16);
   close(ends[1]);
   const auto file = "/dev/fd/" + std::to_string(ends[0]);
-  EXPECT_NE(complaint(file, Source::regular_file), "");
+  EXPECT_NE(failure_reason(file, Source::regular_file), "");
   EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD, Source::any), "set Task = state");
   close(ends[0]);
 }

@@ -119,7 +119,7 @@ inline std::vector<double> random_numbers(unsigned int n, unsigned int seed)
 /// The message of the InputError that making a shape of the bodies above
 /// throws; "" if there is none.
 template <int dim>
-std::string complaint(const shape::ShapeParameters &parameters)
+std::string failure_reason(const shape::ShapeParameters &parameters)
 {
   const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, shape_bodies<dim>(), 1);
   try
@@ -139,7 +139,7 @@ void expect_complaint(const shape::ShapeParameters &parameters,
                       const std::string            &entry,
                       const std::string            &says)
 {
-  const auto message = complaint<dim>(parameters);
+  const auto message = failure_reason<dim>(parameters);
   EXPECT_NE(message.find("'Shape/" + entry + "'"), std::string::npos) << entry << ": " << message;
   EXPECT_NE(message.find(says), std::string::npos) << says << ": " << message;
 }

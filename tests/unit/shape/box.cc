@@ -107,7 +107,7 @@ TEST(SplineBox, FreezesPointsThatMoveNothing)
 TEST(SplineBox, RejectsWhatCannotBe)
 {
   const auto good = box_in_foundation<3>("Bezier box");
-  EXPECT_EQ(complaint<3>(good), "");
+  EXPECT_EQ(failure_reason<3>(good), "");
   const auto expect = [&](const std::string &entry, const std::string &says,
                           void (*spoil)(shape::ShapeParameters &)) {
     auto bad = good;
@@ -121,12 +121,12 @@ TEST(SplineBox, RejectsWhatCannotBe)
   expect("Box size", "no node", [](P &p) { p.box_corner[2] = 1.1; });
   expect("Bodies", "no body 'anvil'", [](P &p) { p.bodies = {"anvil"}; });
   expect("Control points", "3 numbers", [](P &p) { p.control_points = {2, 2}; });
-  expect("Fixed", "nothing is left", [](P &p) {
+  expect("Fixed", "no design variables", [](P &p) {
     p.fixed          = {"border"};
     p.control_points = {2, 2, 2};
   });
   // two of its sides cut the body and hold all control points
-  expect("Fixed", "nothing is left", [](P &p) {
+  expect("Fixed", "no design variables", [](P &p) {
     p.box_corner     = {-0.5, -0.5, -0.5};
     p.box_size       = {1., 1., 1.};
     p.control_points = {2, 2, 2};

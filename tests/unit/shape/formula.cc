@@ -54,7 +54,7 @@ TEST(FormulaModes, RejectWhatIsNoField)
     parameters.modes = {{a, b}};
     return parameters;
   };
-  EXPECT_EQ(complaint<2>(formulas<2>()), "");
+  EXPECT_EQ(failure_reason<2>(formulas<2>()), "");
   expect_complaint<2>(with("x+(", "0"), "Modes", "formula");
   expect_complaint<2>(with("1/(x-5.5)", "0"), "Modes", "finite");
   auto bad  = formulas<2>();

@@ -106,8 +106,7 @@ TEST(Interior, NeighbouringFacesSlideAndOthersAreHeld)
     }
 }
 
-/// What a shape does to a body does not depend on how the body lies, but
-/// for rounding: moves turn with it.
+/// Expect that the displacements of a shape rotate with the body, up to rounding.
 template <int dim>
 void expect_turned_moves(double reach)
 {

@@ -118,7 +118,7 @@ TEST(Links, RejectWhatCannotBe)
   expect_complaint<3>(patch, "Fixed", "'border'");
   patch.fixed          = {"border"};
   patch.control_points = {2, 2};
-  expect_complaint<3>(patch, "Fixed", "nothing is left");
+  expect_complaint<3>(patch, "Fixed", "no design variables");
 }
 } // namespace
 } // namespace snug

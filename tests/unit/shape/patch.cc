@@ -321,7 +321,7 @@ TEST(Patch, RejectsFacesThatLieAboveThemselves)
 TEST(Patch, RejectsBadEntriesByName)
 {
   auto good = on_top<3>("B-spline patch");
-  EXPECT_EQ(complaint<3>(good), "");
+  EXPECT_EQ(failure_reason<3>(good), "");
   const auto expect = [&](const std::string &entry, const std::string &says,
                           void (*spoil)(shape::ShapeParameters &)) {
     auto bad = good;

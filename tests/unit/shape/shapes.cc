@@ -33,7 +33,7 @@ Parameters patch(const std::string &name, const std::string &face, unsigned int 
 
 /// The message of the error that @p spoil causes.
 template <typename Spoil>
-std::string complaint(const Spoil &spoil)
+std::string failure_reason(const Spoil &spoil)
 {
   const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, two_squares(), 1);
   auto                    parameters = patch("roof", "lower.top", 3);
@@ -114,10 +114,10 @@ TEST(Shapes, AddUpAndKeepTheirVariablesApart)
 TEST(Shapes, RejectBoundsAndStarts)
 {
   const auto expect_entry = [](const std::string &entry, const auto &spoil) {
-    const auto message = complaint(spoil);
+    const auto message = failure_reason(spoil);
     EXPECT_NE(message.find("'Shape roof/" + entry + "'"), std::string::npos) << message;
   };
-  EXPECT_EQ(complaint([](Parameters &) {}), "");
+  EXPECT_EQ(failure_reason([](Parameters &) {}), "");
   expect_entry("Bounds", [](Parameters &p) { p.bounds = {0.5, 0.5}; });
   expect_entry("Bounds", [](Parameters &p) { p.bounds = {0.5}; });
   expect_entry("Bounds", [](Parameters &p) { p.bounds = {NAN, 1.}; });

@@ -91,7 +91,7 @@ TEST(Assembler, BodyModesAreContinuous)
     }
 }
 
-/// Of all subdomains of a scene, which more ranks would tear into more.
+/// Return the number of compact subdomains of a scene on one rank; more ranks make more subdomains.
 unsigned int count_compact(const TestScene<3> &scene)
 {
   Problem<3>   problem(scene, MPI_COMM_SELF);

@@ -70,7 +70,7 @@ void expect_near_contacts()
 }
 } // namespace
 
-// As many as carry, or some more, whatever the load.
+// The number of expected contacts is at least that of active contacts for any load.
 TEST(ExpectedContacts, AreThoseOfHertz)
 {
   expect_near_contacts<2>();

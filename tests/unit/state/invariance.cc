@@ -17,7 +17,7 @@ TestScene<3> hertz_scene(double tolerance)
   return scene;
 }
 
-/// What must not depend on tearing, solver, preconditioner or package.
+/// Results that must not depend on tearing, solver, preconditioner or package.
 struct Answer
 {
   double               energy, compliance, strain_energy;

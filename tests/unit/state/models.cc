@@ -57,7 +57,7 @@ Compliance compliance(const mesh::Idealization &idealization, const elasticity::
   return {1. / E, nu / E, 1.};
 }
 
-/// Of a body at @p positions, cell by cell.
+/// Return the volume of a body at @p positions, cell by cell.
 template <int dim>
 double volume_of(const Problem<dim>                 &problem,
                  unsigned int                        body,

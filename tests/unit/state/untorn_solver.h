@@ -277,7 +277,7 @@ void Untorn<dim>::pair_contacts()
       }
 }
 
-/// Of K and, after it, the rows of all contacts, active or not.
+/// Return the pattern of K, followed by the rows of all contacts, active or not.
 template <int dim>
 dealii::DynamicSparsityPattern
 Untorn<dim>::pattern_of(const std::vector<dealii::SparseMatrix<double>> &K) const

@@ -82,8 +82,8 @@ TEST(Work, LinearReferenceCountsItsOwnMults)
   EXPECT_LT(linear, state.f_mults);
 }
 
-/// What belongs to a state is found at its geometry and in its load case,
-/// wherever the solver has been since.
+/// The data of a state are evaluated at its geometry and in its load case, independently of later
+/// states of the solver.
 TEST(Work, AStateIsFoundAgainAfterAnother)
 {
   auto scene = two_blocks<3>(4, 4, 3.);

@@ -1,0 +1,70 @@
+#ifndef snug_app_mesh_summary_h
+#define snug_app_mesh_summary_h
+
+#include <snug/mesh/body_mesh.h>
+#include <snug/scene/scene.h>
+
+#include <iosfwd>
+
+namespace snug::app {
+/// Summary of the meshes of a scene for the author of the scene: sizes, boundaries, regions.
+template <int dim>
+struct MeshSummary
+{
+  /// Bounding box [length].
+  struct Box
+  {
+    dealii::Point<dim> lower, upper;
+  };
+
+  struct Boundary
+  {
+    std::string name;
+    double      area = 0.; ///< [length^2]
+    Box         box;
+  };
+
+  /// A set of cells that can have its own material.
+  struct Region
+  {
+    std::string   name;
+    unsigned long n_cells;
+    double        volume; ///< [length^3], per revolution, of the thickness
+  };
+
+  struct Body
+  {
+    std::string           name;
+    unsigned long         n_cells = 0;
+    std::vector<Region>   regions; ///< may be empty, see BodyGeometry
+    Box                   box;
+    std::vector<Boundary> boundaries;
+  };
+
+  std::vector<Body> bodies;
+};
+
+/// The meshes as they are, refined. Collective.
+template <int dim>
+MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
+/// One line per body, region and boundary.
+template <int dim>
+void print(const MeshSummary<dim> &summary, std::ostream &out);
+
+/**
+ * @throws InputError if the faces of a pair are farther apart than ten
+ *   times the larger of their bodies, as in a mix-up of units. Collective.
+ */
+template <int dim>
+void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
+/// One line for each body whose 'Refine where' catches no cell. Collective.
+template <int dim>
+std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
+/// One line for each body whose mesh file was changed on reading.
+void print_import_notes(const scene::Scene &scene, std::ostream &out);
+} // namespace snug::app
+
+#endif

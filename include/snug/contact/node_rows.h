@@ -1,0 +1,127 @@
+#ifndef snug_contact_node_rows_h
+#define snug_contact_node_rows_h
+
+#include <snug/contact/pair_geometry.h>
+#include <snug/contact/row_derivatives.h>
+#include <snug/faces/nodal_normals.h>
+#include <snug/faces/point_field.h>
+#include <snug/faces/tributary.h>
+
+namespace snug::contact {
+/// Slave nodes of a pair: nodes with rows, and nodes without rows that lie opposite to the master
+/// with zero tributary area, as on the axis of revolution.
+struct SlaveNodes
+{
+  std::vector<unsigned int> with_rows, zero_area;
+};
+
+/**
+ * This class provides the rows of slave nodes, one row per node. The class @p Formula selects
+ * the nodes when it is constructed from a PairGeometry, and defines the row as a function of the
+ * positions of points and of the normals of the master's nodes. Derivatives are computed by
+ * evaluating row() with numbers that carry or record derivatives:
+ *   Formula(const PairGeometry<dim> &pair)
+ *   SlaveNodes nodes
+ *   Row<dim, Number> row(unsigned int i, const faces::PointField<dim, Number> &positions,
+ *                        const faces::PointField<dim, Number> &normals) const
+ */
+template <int dim, typename Formula>
+class NodeRows : public RowGroup<dim>
+{
+public:
+  using Field = typename RowGroup<dim>::Field;
+
+  explicit NodeRows(const PairGeometry<dim> &pair)
+    : surface(pair.surface)
+    , shape(pair.shape)
+    , sides(pair.sides)
+    , held(pair.held)
+    , formula(pair)
+    , nodes(formula.nodes)
+  {}
+
+  const std::vector<unsigned int> &slaves() const override { return nodes.with_rows; }
+
+  std::vector<DependentMultiplier> dependent_multipliers() const override
+  {
+    return dependent_on_axis(surface, sides.slave, nodes.with_rows, nodes.zero_area);
+  }
+
+  std::vector<Row<dim>> rows(const Field &positions) const override
+  {
+    const auto                           normals = master_normals(positions);
+    const faces::PointField<dim, double> x(positions), n(normals.normals());
+    std::vector<Row<dim>>                result;
+    for (unsigned int i = 0; i < nodes.with_rows.size(); ++i)
+      result.push_back(formula.row(i, x, n));
+    return result;
+  }
+
+  std::vector<Row<dim>> row_derivatives(const Field &positions,
+                                        const Field &velocity) const override
+  {
+    using Number                                 = faces::Differential<1>;
+    const auto                           normals = master_normals(positions);
+    const auto                           slopes  = normals.derivative(velocity);
+    const faces::PointField<dim, Number> x(positions, velocity), n(normals.normals(), slopes);
+    std::vector<Row<dim>>                result;
+    for (unsigned int i = 0; i < nodes.with_rows.size(); ++i)
+      result.push_back(derivative_of(formula.row(i, x, n)));
+    return result;
+  }
+
+  void add_energy_gradient(const Field               &positions,
+                           const Field               &displacement,
+                           const std::vector<double> &forces,
+                           Field                     &gradient) const override
+  {
+    AssertDimension(forces.size(), nodes.with_rows.size());
+    const auto       normals = master_normals(positions);
+    Field            normal_gradient(surface.n_nodes());
+    faces::Recording recording;
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      {
+        if (forces[i] == 0.)
+          continue;
+        recording.clear();
+        const faces::PointField<dim, faces::Recorded> x(positions, recording),
+          n(normals.normals(), recording);
+        add_energy_derivatives(formula.row(i, x, n), displacement, forces[i], recording);
+        recording.sweep();
+        x.add_derivatives(gradient);
+        n.add_derivatives(normal_gradient);
+      }
+    normals.add_transpose(normal_gradient, gradient);
+  }
+
+  /// Return areas over the whole slave side, also where the master side ends within it. So the
+  /// force of a row divided by its area is a mean pressure around its node.
+  std::vector<double> areas(const Field &positions) const override
+  {
+    return faces::tributary_areas<dim>({surface, sides.slave, shape}, nodes.with_rows, positions);
+  }
+
+  void add_area_gradient(const Field               &positions,
+                         const std::vector<double> &factors,
+                         Field                     &gradient) const override
+  {
+    faces::add_tributary_gradient<dim>({surface, sides.slave, shape}, nodes.with_rows, positions,
+                                       factors, gradient);
+  }
+
+private:
+  const mesh::Surface<dim>    &surface;
+  const faces::FaceShape<dim> &shape;
+  PairFaces                    sides; ///< obstacles have no master faces
+  faces::HeldDirections<dim>   held;
+  Formula                      formula;
+  const SlaveNodes            &nodes;
+
+  faces::NodalNormals<dim> master_normals(const Field &positions) const
+  {
+    return {surface, sides.master, shape, positions, &held};
+  }
+};
+} // namespace snug::contact
+
+#endif
