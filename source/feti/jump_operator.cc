@@ -153,10 +153,12 @@ std::vector<JumpColumns> jump_operator(const RowLayout           &layout,
     for (unsigned int k = 0; k < members.size(); ++k)
       out[rank_of(groups.unknowns[members[k]].subdomain)].push_back(
         column(layout, groups, entries, X, members, k));
+  auto received = dealii::Utilities::MPI::some_to_some(comm, out);
+  out.clear(); // the columns take much memory
   std::vector<JumpColumns> result(n_subdomains);
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, out))
-    for (const JumpColumn &received : message.second)
-      result[received.subdomain - first].push_back(received);
+  for (auto &message : received)
+    for (JumpColumn &of_unknown : message.second)
+      result[of_unknown.subdomain - first].push_back(std::move(of_unknown));
   // Messages arrive rank by rank.
   for (auto &columns : result)
     std::sort(columns.begin(), columns.end(),

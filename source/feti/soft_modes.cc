@@ -223,9 +223,14 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
           begin = end;
         }
     }
+  auto received = dealii::Utilities::MPI::some_to_some(comm, answers);
+  answers.clear(); // the entries take much memory
   NeighbourEntries all;
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, answers))
-    all.insert(all.end(), message.second.begin(), message.second.end());
+  for (auto &message : received)
+    {
+      all.insert(all.end(), message.second.begin(), message.second.end());
+      message.second = NeighbourEntries();
+    }
   // Sum over neighbours in their global order, independently of the ranks that hold them.
   std::stable_sort(all.begin(), all.end(), by_subdomains);
   std::vector<Entries> result(systems.size());

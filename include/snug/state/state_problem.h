@@ -52,7 +52,8 @@ public:
   const Geometry<dim> &geometry() const { return present; }
 
   /// Return the dual problem of a load case at the present geometry, valid as geometry(). set()
-  /// must have been called for the load case at @p positions.
+  /// must have been called for the load case at @p positions. @throws ExcMessage on a rank whose
+  /// subdomains are at other positions, which is an error of the caller.
   const feti::LoadedProblem &loaded(const Field &positions, unsigned int load_case) const;
 
   /// Return the data of the rows of B at @p positions. Collective.
