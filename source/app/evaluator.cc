@@ -93,17 +93,22 @@ Analysis<dim> &Evaluator<dim>::analysis(const Design &design)
 {
   if (!last(design))
     current = Analysis<dim>{design, problem.solve(design, starts.at(design))};
-  if (!current->gradients.of_response.empty())
-    return *current;
-  auto parameters = problem.scene.gradient;
-  if (parameters.method == sensitivity::Method::energy) // does not hold for every constraint
-    parameters.method.reset();
-  if (is_predicted())
-    parameters.method = sensitivity::Method::direct;
-  current->gradients =
-    sensitivity::combined_gradients(problem.load_cases(current->states, design, parameters),
-                                    *problem.objective,
-                                    problem.combined_objective(current->states).factors, measured);
+  if (current->gradients.of_response.empty())
+    {
+      auto parameters = problem.scene.gradient;
+      if (parameters.method == sensitivity::Method::energy) // does not hold for every constraint
+        parameters.method.reset();
+      if (is_predicted())
+        parameters.method = sensitivity::Method::direct;
+      current->gradients =
+        sensitivity::combined_gradients(problem.load_cases(current->states, design, parameters),
+                                        *problem.objective,
+                                        problem.combined_objective(current->states).factors,
+                                        measured);
+    }
+  // The solver may have been at another design since, for example at the first one.
+  for (const auto &state : current->states)
+    problem.solver->restore(state);
   return *current;
 }
 

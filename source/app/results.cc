@@ -214,8 +214,8 @@ void Results<dim>::export_first_qp(const States &states)
   if (!problem->scene.output.export_qp)
     return;
   const auto &state  = states.front();
-  const auto &solver = *problem->solver;
-  // may factorize, which has a stage of its own
+  auto       &solver = *problem->solver;
+  solver.restore(state); // may factorize, which has a stage of its own
   const auto             &feti = solver.feti(state);
   const RunContext::Timer timer(problem->context, "output");
   io::export_qp(path("qp"), feti, solver.gluing().layout(), state.u, state.dual.lambda);

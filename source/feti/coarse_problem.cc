@@ -1,4 +1,4 @@
-#include <snug/feti/coarse_space.h>
+#include <snug/feti/coarse_problem.h>
 #include <snug/feti/generalized_inverse.h>
 #include <snug/qp/independent_columns.h>
 
@@ -11,21 +11,21 @@ namespace {
 const double dependence = 1e-8;
 } // namespace
 
-/// Every rank has the whole matrix. Only a factorization by a team communicates in solve().
+/// Every rank has the whole matrix. Only a factorization by a group communicates in solve().
 CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
 {
-  CsrMatrix matrix   = space.pattern();
-  matrix.values      = space.gram_values(free);
-  const auto motions = space.hardly_seen_motions(matrix);
+  CsrMatrix   matrix          = space.gram(free);
+  const auto &representatives = space.structure().representatives;
+  const auto  motions         = space.near_kernel(matrix);
   // The columns of N and W are orthonormal, because those of both factors are.
-  N         = times(space.body_modes(), motions.unseen);
+  N         = times(space.body_modes(), motions.kernel);
   W         = times(space.body_modes(), motions.weak);
   auto held = N;
   held.append(W);
   // Regularize the matrix as fixing nodes regularize K. This couples only the coarse unknowns of
   // one subdomain per body.
-  fix_kernel(matrix, space.representatives(), rows_of(held, space.representatives()));
-  A = space.factors().factorize(matrix, "the coarse problem G G'");
+  fix_kernel(matrix, representatives, rows_of(held, representatives));
+  A = space.structure().factors.factorize(matrix, "the coarse problem G G'");
   if (W.n_columns() == 0)
     return;
   // Compute G_M G_M' W from the rows, because the small numbers G_M' W are lost in the rounding of

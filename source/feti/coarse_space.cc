@@ -22,16 +22,16 @@ const double kernel_cut = 1e-13;
 const double weak_cut = 1e-5;
 } // namespace
 
-CoarseSpace::CoarseSpace(const RowLayout      &the_layout,
-                         const SubdomainTable &the_table,
-                         const unsigned int    n_ranks)
+CoarseStructure::CoarseStructure(const RowLayout   &the_layout,
+                                 SubdomainTable     the_table,
+                                 const unsigned int n_ranks)
   : layout(the_layout)
-  , table(the_table)
-  , factor_pool(FactorOf::coarse,
-                Factorization::CHOLMOD,
-                nullptr,
-                nullptr,
-                coarse_team(layout.communicator(), n_kernel(), FactorOf::coarse, n_ranks))
+  , table(std::move(the_table))
+  , factors(MatrixKind::coarse,
+            Factorization::CHOLMOD,
+            nullptr,
+            nullptr,
+            coarse_group(layout.communicator(), table.n_kernel(), MatrixKind::coarse, n_ranks))
 {
   // The entries of a row are sorted by subdomain. The entries of one subdomain in one row make one
   // block of G, the n_modes numbers G(s, row) = R_s' B_s(row, :)'.
@@ -42,39 +42,38 @@ CoarseSpace::CoarseSpace(const RowLayout      &the_layout,
     {
       for (unsigned int e = start[row]; e < start[row + 1]; ++e)
         {
-          if (e == start[row] || unknowns[e].first != unknowns[e - 1].first)
-            block_subdomain.push_back(unknowns[e].first);
+          if (e == start[row] || unknowns[e].subdomain != unknowns[e - 1].subdomain)
+            block_subdomain.push_back(unknowns[e].subdomain);
           block_of_entry.push_back(narrow<unsigned int>(block_subdomain.size()) - 1);
         }
       block_start.push_back(narrow<unsigned int>(block_subdomain.size()));
     }
   // The first subdomain of a body represents the body. Z_s is regular, so that the n_modes coarse
   // unknowns of the subdomain distinguish all rigid motions of the body.
-  const auto n_bodies = narrow<unsigned int>(table.body_names.size());
-  for (unsigned int body = 0; body < n_bodies; ++body)
+  for (unsigned int body = 0; body < table.n_bodies(); ++body)
     {
       const auto s = narrow<unsigned int>(std::find(table.body.begin(), table.body.end(), body) -
                                           table.body.begin());
       for (unsigned int mode = 0; mode < table.n_modes; ++mode)
-        representative.push_back(s * table.n_modes + mode);
+        representatives.push_back(s * table.n_modes + mode);
     }
   build_pattern();
 }
 
 /// The pattern is that of all rows. Faces have fewer nonzero entries, but a common pattern lets all
 /// faces share a symbolic factorization.
-void CoarseSpace::build_pattern()
+void CoarseStructure::build_pattern()
 {
   const unsigned int m = table.n_modes, n_subdomains = narrow<unsigned int>(table.body.size());
   std::set<Coupling> couplings, bounded_couplings;
   // Subdomains without rows also need their diagonal block.
   for (unsigned int s = 0; s < n_subdomains; ++s)
-    couplings.emplace(s, s);
+    couplings.insert({s, s});
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
       for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
         {
-          const Coupling pair(block_subdomain[a], block_subdomain[b]);
+          const Coupling pair{block_subdomain[a], block_subdomain[b]};
           couplings.insert(pair);
           // Contact rows change with the active set, so only their entries are summed for each
           // face.
@@ -83,65 +82,87 @@ void CoarseSpace::build_pattern()
         }
   // N_f (N_f'N_f)^-1 N_f' couples the representatives of all bodies, because a motion of the kernel
   // may move several bodies.
-  for (const unsigned int i : representative)
-    for (const unsigned int j : representative)
-      couplings.emplace(i / m, j / m);
+  for (const unsigned int i : representatives)
+    for (const unsigned int j : representatives)
+      couplings.insert({i / m, j / m});
   const auto                         pairs = unite(couplings, layout.communicator());
-  std::vector<std::vector<PetscInt>> rows(n_kernel());
+  std::vector<std::vector<PetscInt>> rows(table.n_kernel());
   for (const Coupling &pair : pairs)
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
-        rows[pair.first * m + i].push_back(pair.second * m + j);
-  gram = CsrMatrix::from_rows(rows, n_kernel());
+        rows[pair.row * m + i].push_back(pair.column * m + j);
+  gram = CsrMatrix::from_rows(rows, table.n_kernel());
   for (const Coupling &pair : unite(bounded_couplings, layout.communicator()))
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
-        bounded_places.push_back(gram.position(pair.first * m + i, pair.second * m + j));
+        bounded_places.push_back(gram.position(pair.row * m + i, pair.column * m + j));
+}
+
+void CoarseStructure::sum(qp::MultiVector &contributions) const
+{
+  sum_over_ranks(contributions, layout.communicator());
+}
+
+/// Compute the norms without a sum over ranks, because coarse vectors are equal on all ranks.
+std::vector<double> CoarseStructure::norms(const qp::MultiVector &c) const
+{
+  return qp::norms(c, MPI_COMM_SELF);
+}
+
+CoarseSpace::CoarseSpace(const CoarseStructure              &structure,
+                         const std::vector<double>          &G_entries,
+                         const unsigned int                  offset,
+                         const std::vector<SubdomainSystem> &systems)
+  : pattern(structure)
+  , layout(structure.layout)
+  , blocks(structure.block_subdomain.size() * structure.table.n_modes, 0.)
+  , equality_gram(structure.gram.values.size(), 0.)
+{
+  const unsigned int m = pattern.table.n_modes;
+  for (std::size_t e = 0; e < pattern.block_of_entry.size(); ++e)
+    for (unsigned int i = 0; i < m; ++i)
+      blocks[pattern.block_of_entry[e] * m + i] += G_entries[e * (offset + m) + offset + i];
+  // The contribution of the equality rows is the same for all faces of a design.
+  for (unsigned int row = 0; row < layout.n_owned(); ++row)
+    if (!layout.bounded()[row])
+      add_row(row, equality_gram);
+  sum_over_ranks(equality_gram, layout.communicator());
+  set_body_modes(systems);
 }
 
 /// Add g g' of the column g of G of @p row to @p values, which are in the pattern's order.
 void CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
 {
-  const unsigned int m = table.n_modes;
-  for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
-    for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
+  const unsigned int m          = pattern.table.n_modes;
+  const auto        &start      = pattern.block_start;
+  const auto        &subdomains = pattern.block_subdomain;
+  for (unsigned int a = start[row]; a < start[row + 1]; ++a)
+    for (unsigned int b = start[row]; b < start[row + 1]; ++b)
       {
         // The m rows of a block row have the same pattern.
-        const unsigned int first  = block_subdomain[a] * m;
-        const unsigned int length = gram.row_start()[first + 1] - gram.row_start()[first];
-        double            *to     = &values[gram.position(first, block_subdomain[b] * m)];
+        const unsigned int first  = subdomains[a] * m;
+        const auto        &starts = pattern.gram.row_start();
+        const unsigned int length = starts[first + 1] - starts[first];
+        double            *to     = &values[pattern.gram.position(first, subdomains[b] * m)];
         for (unsigned int i = 0; i < m; ++i, to += length)
           for (unsigned int j = 0; j < m; ++j)
             to[j] += blocks[a * m + i] * blocks[b * m + j];
       }
 }
 
-void CoarseSpace::update(const std::vector<double>          &G_entries,
-                         unsigned int                        stride,
-                         const std::vector<qp::MultiVector> &Z)
+/// Each subdomain has its own orthonormal R. Z_s combines the columns of R to motions of the whole
+/// body.
+void CoarseSpace::set_body_modes(const std::vector<SubdomainSystem> &systems)
 {
-  const unsigned int m = table.n_modes;
-  blocks.assign(block_subdomain.size() * m, 0.);
-  for (std::size_t e = 0; e < block_of_entry.size(); ++e)
-    for (unsigned int i = 0; i < m; ++i)
-      blocks[block_of_entry[e] * m + i] += G_entries[e * stride + i];
-  // The contribution of the equality rows is the same for all faces of a design.
-  equality_gram.assign(gram.values.size(), 0.);
-  for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (!layout.bounded()[row])
-      add_row(row, equality_gram);
-  sum_over_ranks(equality_gram, layout.communicator());
-
-  const auto n_bodies = narrow<unsigned int>(table.body_names.size());
-  // Each subdomain has its own orthonormal R. Z_s combines the columns of R to motions of the whole
-  // body. Each rank fills in its subdomains, and the sum over ranks adds zeros, which is exact.
-  modes = qp::MultiVector(n_kernel(), n_bodies * m);
-  for (unsigned int s = 0; s < Z.size(); ++s)
+  const SubdomainTable &table = pattern.table;
+  const unsigned int    m     = table.n_modes;
+  // Each rank fills in its subdomains, and the sum over ranks adds zeros, which is exact.
+  modes = qp::MultiVector(table.n_kernel(), table.n_bodies() * m);
+  for (unsigned int s = 0; s < systems.size(); ++s)
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
-        modes((table.first + s) * m + i, table.body[table.first + s] * m + j) = Z[s](i, j);
-  MPI_Allreduce(MPI_IN_PLACE, modes.column(0), modes.n_rows() * modes.n_columns(), MPI_DOUBLE,
-                MPI_SUM, layout.communicator());
+        modes((table.first + s) * m + i, table.body[table.first + s] * m + j) = systems[s].Z(i, j);
+  pattern.sum(modes);
   // Z (Z'Z)^{-1/2} is orthonormal, and each body keeps its own columns.
   const qp::MultiVector            products = transpose_times(modes, modes);
   const unsigned int               n        = products.n_columns();
@@ -158,7 +179,7 @@ void CoarseSpace::update(const std::vector<double>          &G_entries,
   modes = times(modes, transpose_times(root, root));
 }
 
-CoarseSpace::HardlySeen CoarseSpace::hardly_seen_motions(const CsrMatrix &A) const
+CoarseSpace::NearKernel CoarseSpace::near_kernel(const CsrMatrix &A) const
 {
   // A is assembled from the rows of M only. A motion without strain and without relative motion at
   // the gluing moves each body rigidly. The kernel of A therefore lies in the span of the body
@@ -179,15 +200,17 @@ CoarseSpace::HardlySeen CoarseSpace::hardly_seen_motions(const CsrMatrix &A) con
 /// Each rank adds the products of its owned rows. The sum makes coarse vectors equal on all ranks.
 qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet *free) const
 {
-  const unsigned int m = table.n_modes;
-  qp::MultiVector    c(n_kernel(), x.n_columns());
+  const unsigned int m          = pattern.table.n_modes;
+  const auto        &start      = pattern.block_start;
+  const auto        &subdomains = pattern.block_subdomain;
+  qp::MultiVector    c(pattern.table.n_kernel(), x.n_columns());
   const auto is_free = [&](const unsigned int row) { return free == nullptr || (*free)[row]; };
   if (x.n_columns() == 1)
     for (unsigned int row = 0; row < layout.n_owned(); ++row)
-      for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
+      for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
         {
           const double *G   = &blocks[std::size_t(b) * m];
-          double       *c_s = c.column(0) + block_subdomain[b] * m;
+          double       *c_s = c.column(0) + subdomains[b] * m;
           for (unsigned int i = 0; i < m; ++i)
             c_s[i] += G[i] * x(row);
         }
@@ -197,14 +220,12 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet
         const Columns from(x, k);
         Columns       to(c, k);
         for (unsigned int row = 0; row < layout.n_owned(); ++row)
-          for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
+          for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
             for (unsigned int i = 0; i < m; ++i)
-              Columns::add(blocks[std::size_t(b) * m + i], from[row],
-                           to[block_subdomain[b] * m + i]);
+              Columns::add(blocks[std::size_t(b) * m + i], from[row], to[subdomains[b] * m + i]);
         to.unpack(c);
       }
-  MPI_Allreduce(MPI_IN_PLACE, c.column(0), c.n_rows() * c.n_columns(), MPI_DOUBLE, MPI_SUM,
-                layout.communicator());
+  pattern.sum(c);
   return c;
 }
 
@@ -212,15 +233,17 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet
 qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
                                                 const qp::RowSet      *free) const
 {
-  const unsigned int m = table.n_modes;
+  const unsigned int m          = pattern.table.n_modes;
+  const auto        &start      = pattern.block_start;
+  const auto        &subdomains = pattern.block_subdomain;
   qp::MultiVector    y(layout.n_owned(), alpha.n_columns());
   const auto is_free = [&](const unsigned int row) { return free == nullptr || (*free)[row]; };
   if (alpha.n_columns() == 1)
     for (unsigned int row = 0; row < layout.n_owned(); ++row)
-      for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
+      for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
         {
           const double *G       = &blocks[std::size_t(b) * m];
-          const double *alpha_s = alpha.column(0) + block_subdomain[b] * m;
+          const double *alpha_s = alpha.column(0) + subdomains[b] * m;
           for (unsigned int i = 0; i < m; ++i)
             y(row) += G[i] * alpha_s[i];
         }
@@ -230,30 +253,30 @@ qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
         const Columns from(alpha, k);
         Columns       to(y, k);
         for (unsigned int row = 0; row < layout.n_owned(); ++row)
-          for (unsigned int b = block_start[row]; is_free(row) && b < block_start[row + 1]; ++b)
+          for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
             for (unsigned int i = 0; i < m; ++i)
-              Columns::add(blocks[std::size_t(b) * m + i], from[block_subdomain[b] * m + i],
-                           to[row]);
+              Columns::add(blocks[std::size_t(b) * m + i], from[subdomains[b] * m + i], to[row]);
         to.unpack(y);
       }
   return y;
 }
 
-std::vector<double> CoarseSpace::gram_values(const qp::RowSet &free) const
+CsrMatrix CoarseSpace::gram(const qp::RowSet &free) const
 {
-  std::vector<double> contact(gram.values.size(), 0.);
+  std::vector<double> contact(equality_gram.size(), 0.);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (layout.bounded()[row] && free[row])
       add_row(row, contact);
   // Send only the entries of contact rows, because they are few in large models.
   std::vector<double> packed;
-  for (const std::size_t place : bounded_places)
+  for (const std::size_t place : pattern.bounded_places)
     packed.push_back(contact[place]);
   sum_over_ranks(packed, layout.communicator());
-  std::vector<double> values = equality_gram;
+  CsrMatrix result = pattern.gram;
+  result.values    = equality_gram;
   for (std::size_t i = 0; i < packed.size(); ++i)
-    values[bounded_places[i]] += packed[i];
-  return values;
+    result.values[pattern.bounded_places[i]] += packed[i];
+  return result;
 }
 
 /// The norm is that of all rows, because it serves as a scale, which need not be that of a face.

@@ -1,7 +1,6 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/couplings.h>
 #include <snug/feti/deflation.h>
-#include <snug/feti/patch.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,12 +23,6 @@ void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &local, 
       y(entry.dof, k) += entry.value * local(entry.row, k);
 }
 
-void sum(qp::MultiVector &x, MPI_Comm comm)
-{
-  MPI_Allreduce(MPI_IN_PLACE, x.column(0), narrow<int>(x.n_rows() * x.n_columns()), MPI_DOUBLE,
-                MPI_SUM, comm);
-}
-
 /// Add the rows of @p x to the rows @p numbers of @p a.
 void add_to_rows(const std::vector<unsigned int> &numbers,
                  const qp::MultiVector           &x,
@@ -39,260 +32,268 @@ void add_to_rows(const std::vector<unsigned int> &numbers,
     for (unsigned int i = 0; i < numbers.size(); ++i)
       a(numbers[i], k) += x(i, k);
 }
+/// Vectors first_id to end_id reach a subdomain.
+struct Reach
+{
+  unsigned int subdomain, first_id, end_id;
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive & subdomain & first_id & end_id;
+  }
+};
+
+/// Return the part of the vector @p v of the soft modes @p raw on the rows of its neighbourhood.
+std::vector<double>
+values_on(const NeighbourhoodRows &rows, const RowForces &raw, const unsigned int v)
+{
+  std::vector<double> c(rows.n_rows(), 0.);
+  unsigned int        j = 0;
+  for (unsigned int i = 0; i < rows.n_rows(); ++i)
+    {
+      // the rows of both are ascending
+      while (j < raw.rows.size() && raw.rows[j] < rows.begin(i)->row)
+        ++j;
+      if (j < raw.rows.size() && raw.rows[j] == rows.begin(i)->row)
+        c[i] = raw.values(j, v);
+    }
+  return c;
+}
 } // namespace
 
-Deflation::Deflation(const std::vector<SubdomainSystem> &the_systems,
-                     const RowLayout                    &the_layout,
-                     const SubdomainTable               &the_table,
-                     const unsigned int                  coarse_ranks,
-                     std::vector<RowForces>              the_raw)
-  : systems(the_systems)
-  , layout(the_layout)
-  , table(the_table)
-  , rank_of(the_table.first, the_layout.communicator())
+DeflationStructure::DeflationStructure(const CoarseStructure &the_coarse,
+                                       const unsigned int     n_subdomains,
+                                       std::vector<RowForces> the_raw,
+                                       const unsigned int     coarse_ranks)
+  : coarse(the_coarse)
+  , rank_of(coarse.table.first, coarse.layout.communicator())
   , raw(std::move(the_raw))
-  , wanted_by(the_systems.size())
-  , parts(the_systems.size())
+  , parts(n_subdomains)
 {
-  const MPI_Comm comm = layout.communicator();
+  const MPI_Comm comm = coarse.layout.communicator();
   unsigned int   mine = 0;
   for (const RowForces &of_subdomain : raw)
     mine += of_subdomain.values.n_columns();
   // Ids are in the order of the subdomains, which is the order of the ranks.
   MPI_Scan(&mine, &first_id, 1, MPI_UNSIGNED, MPI_SUM, comm);
   first_id -= mine;
-  n_global = dealii::Utilities::MPI::sum(mine, comm);
-  team     = coarse_team(comm, n_global, FactorOf::soft_modes, coarse_ranks);
+  n_vectors = dealii::Utilities::MPI::sum(mine, comm);
+  if (n_vectors == 0)
+    return;
+  // Use CHOLMOD whatever the package of the stiffness is, as for the coarse problem, because the
+  // problem is replicated. A group of ranks factorizes by MUMPS instead.
+  factors = FactorPool(MatrixKind::soft_modes, Factorization::CHOLMOD, nullptr, nullptr,
+                       coarse_group(comm, n_vectors, MatrixKind::soft_modes, coarse_ranks));
+  count_subdomains();
+  find_parts();
+  build_pattern();
+}
 
-  // Per row: the number of its subdomains, and the lowest of these subdomains.
-  qp::MultiVector owned(layout.n_owned(), 2);
+/// Find the number of subdomains of each row, and the lowest of these subdomains.
+void DeflationStructure::count_subdomains()
+{
+  const RowLayout &layout = coarse.layout;
+  qp::MultiVector  owned(layout.n_owned(), 2);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (!layout.bounded()[row])
       {
         const auto &unknowns = layout.entry_unknowns();
         const auto  begin = layout.entry_start()[row], end = layout.entry_start()[row + 1];
         for (unsigned int e = begin; e < end; ++e)
-          owned(row, 0) += e == begin || unknowns[e].first != unknowns[e - 1].first;
-        owned(row, 1) = unknowns[begin].first;
+          owned(row, 0) += e == begin || unknowns[e].subdomain != unknowns[e - 1].subdomain;
+        owned(row, 1) = unknowns[begin].subdomain;
       }
-  const auto local = layout.to_local(owned);
+  const auto         local = layout.to_local(owned);
+  const unsigned int first = coarse.table.first;
   for (unsigned int row = 0; row < layout.n_local(); ++row)
     {
-      n_copies.push_back(static_cast<unsigned int>(local(row, 0)));
+      multiplicity.push_back(static_cast<unsigned int>(local(row, 0)));
       const auto lowest = static_cast<unsigned int>(local(row, 1));
-      if (n_copies.back() > 0 && lowest >= table.first && lowest - table.first < parts.size())
-        parts[lowest - table.first].rows.push_back(row);
+      if (multiplicity.back() > 0 && lowest >= first && lowest - first < parts.size())
+        parts[lowest - first].rows.push_back(row);
     }
-
-  std::map<unsigned int, std::vector<unsigned int>> questions;
-  for (const RowForces &of_subdomain : raw)
-    for (const unsigned int t : of_subdomain.patch)
-      questions[rank_of(t)].push_back(t);
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, questions))
-    for (const unsigned int t : message.second)
-      wanted_by[t - table.first].insert(message.first);
 }
 
-/// Gather the rows of the subdomains in all patches of this rank.
-Deflation::Numbers Deflation::gather_rows() const
+/// Tell the rank of each subdomain which vectors reach the subdomain.
+void DeflationStructure::find_parts()
 {
-  const unsigned int                          m = table.n_modes;
-  std::map<unsigned int, std::vector<double>> out;
-  std::vector<unsigned int>                   place(layout.n_local());
-  for (unsigned int t = 0; t < systems.size(); ++t)
-    {
-      if (wanted_by[t].empty())
-        continue;
-      std::vector<unsigned int> rows;
-      for (const BEntry &entry : systems[t].B)
-        if (n_copies[entry.row] > 0)
-          rows.push_back(entry.row);
-      std::sort(rows.begin(), rows.end());
-      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-      const std::size_t   header = 2, width = 2 + m;
-      std::vector<double> message(header + rows.size() * width, 0.);
-      message[0] = table.first + t;
-      message[1] = double(rows.size() * width);
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        {
-          place[rows[i]]                  = i;
-          message[header + i * width]     = layout.global_row_of_local(rows[i]);
-          message[header + i * width + 1] = n_copies[rows[i]];
-        }
-      for (const BEntry &entry : systems[t].B)
-        if (n_copies[entry.row] > 0)
-          for (unsigned int k = 0; k < m; ++k)
-            message[header + place[entry.row] * width + 2 + k] +=
-              entry.value * systems[t].R(entry.dof, k);
-      for (const unsigned int rank : wanted_by[t])
-        out[rank].insert(out[rank].end(), message.begin(), message.end());
-    }
-  Numbers result;
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
-    for (auto p = message.second.begin(); p != message.second.end();)
-      {
-        auto      &of_subdomain = result[static_cast<unsigned int>(*p++)];
-        const auto size         = static_cast<std::ptrdiff_t>(*p++);
-        of_subdomain.assign(p, p + size);
-        p += size;
-      }
-  return result;
-}
-
-/// Return the columns of C for the subdomains of this rank, with ascending ids.
-Deflation::Numbers Deflation::balanced_vectors() const
-{
-  const auto                                  rows = gather_rows();
-  const unsigned int                          m    = table.n_modes;
-  std::map<unsigned int, std::vector<double>> out;
-  unsigned int                                id = first_id;
+  std::map<unsigned int, std::vector<Reach>> out;
+  unsigned int                               id = first_id;
   for (const RowForces &of_subdomain : raw)
     {
-      const auto               &members = of_subdomain.patch;
-      std::vector<Patch::Touch> touches;
-      for (unsigned int member = 0; member < members.size(); ++member)
-        {
-          const auto &of_member = rows.at(members[member]);
-          for (std::size_t i = 0; i < of_member.size(); i += 2 + m)
-            touches.push_back({static_cast<unsigned int>(of_member[i]),
-                               static_cast<unsigned int>(of_member[i + 1]), member,
-                               &of_member[i + 2]});
-        }
-      const Patch patch(touches, narrow<unsigned int>(members.size()), m);
-      for (unsigned int v = 0; v < of_subdomain.values.n_columns(); ++v, ++id)
-        {
-          std::vector<double> c(patch.n_rows(), 0.);
-          unsigned int        j = 0;
-          for (unsigned int i = 0; i < patch.n_rows(); ++i)
-            {
-              // the rows of both are ascending
-              while (j < of_subdomain.rows.size() && of_subdomain.rows[j] < patch.begin(i)->row)
-                ++j;
-              if (j < of_subdomain.rows.size() && of_subdomain.rows[j] == patch.begin(i)->row)
-                c[i] = of_subdomain.values(j, v);
-            }
-          patch.balance(c);
-          std::vector<std::vector<double>> of_member(members.size());
-          for (unsigned int i = 0; i < patch.n_rows(); ++i)
-            for (const auto *t = patch.begin(i); t != patch.end(i); ++t)
-              {
-                of_member[t->member].push_back(t->row);
-                of_member[t->member].push_back(c[i]);
-              }
-          for (unsigned int member = 0; member < members.size(); ++member)
-            {
-              auto &to = out[rank_of(members[member])];
-              to.insert(to.end(),
-                        {double(members[member]), double(id), double(of_member[member].size())});
-              to.insert(to.end(), of_member[member].begin(), of_member[member].end());
-            }
-        }
+      const unsigned int end = id + of_subdomain.values.n_columns();
+      for (const unsigned int t : of_subdomain.neighbourhood)
+        out[rank_of(t)].push_back({t, id, end});
+      id = end;
     }
   // Messages are sorted by rank, and ids ascend with the ranks.
-  Numbers result;
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
-    for (auto p = message.second.begin(); p != message.second.end();)
+  for (const auto &message :
+       dealii::Utilities::MPI::some_to_some(coarse.layout.communicator(), out))
+    for (const Reach &reach : message.second)
       {
-        auto      &of_subdomain = result[static_cast<unsigned int>(*p++)];
-        const auto end          = p + 2 + static_cast<std::ptrdiff_t>(p[1]);
-        of_subdomain.insert(of_subdomain.end(), p, end);
-        p = end;
+        Part &part = parts[reach.subdomain - coarse.table.first];
+        part.wanted_by.insert(message.first);
+        for (unsigned int i = reach.first_id; i < reach.end_id; ++i)
+          part.ids.push_back(i);
       }
-  return result;
 }
 
-/// Store the parts of @p vectors that belong to subdomain s of this rank. @return B'C
-qp::MultiVector Deflation::take(const unsigned int s, const std::vector<double> &vectors)
-{
-  Part &part = parts[s];
-  part.ids.clear();
-  part.C = qp::MultiVector(narrow<unsigned int>(part.rows.size()), 0);
-  qp::MultiVector forces(systems[s].n_dofs(), 0), c(layout.n_local());
-  for (auto p = vectors.begin(); p != vectors.end();)
-    {
-      part.ids.push_back(static_cast<unsigned int>(p[0]));
-      const auto begin = p + 2, end = begin + static_cast<std::ptrdiff_t>(p[1]);
-      for (p = begin; p != end; p += 2)
-        c(layout.local_row(static_cast<unsigned int>(p[0]))) = p[1];
-      qp::MultiVector counted(part.C.n_rows()), force(forces.n_rows());
-      for (unsigned int i = 0; i < part.rows.size(); ++i)
-        counted(i) = c(part.rows[i]);
-      add_transposed(systems[s].B, c, force);
-      part.C.append(counted);
-      forces.append(force);
-      for (p = begin; p != end; p += 2)
-        c(layout.local_row(static_cast<unsigned int>(p[0]))) = 0.;
-    }
-  return forces;
-}
-
-void Deflation::build_pattern()
+void DeflationStructure::build_pattern()
 {
   std::set<Coupling> couplings;
   for (const Part &part : parts)
     for (const unsigned int i : part.ids)
       for (const unsigned int j : part.ids)
-        couplings.emplace(i, j);
-  std::vector<std::vector<PetscInt>> rows(n_global);
-  for (const Coupling &coupling : unite(couplings, layout.communicator()))
-    rows[coupling.first].push_back(coupling.second);
-  E = CsrMatrix::from_rows(rows, n_global);
-  // Use CHOLMOD whatever the package of the stiffness is, as for the coarse problem, because the
-  // problem is replicated. A team factorizes by MUMPS instead.
-  factor =
-    std::make_unique<SparseFactor>(E, FactorOf::soft_modes, Factorization::CHOLMOD, nullptr, team);
+        couplings.insert({i, j});
+  std::vector<std::vector<PetscInt>> rows(n_vectors);
+  for (const Coupling &pair : unite(couplings, coarse.layout.communicator()))
+    rows[pair.row].push_back(pair.column);
+  E = CsrMatrix::from_rows(rows, n_vectors);
 }
 
-void Deflation::update(const std::vector<std::unique_ptr<GeneralizedInverse>> &inverses,
-                       const std::vector<std::unique_ptr<LocalSchur>>         &schur)
+Deflation::Deflation(const DeflationStructure           &the_structure,
+                     const std::vector<SubdomainSystem> &systems,
+                     const ConstraintRows               &B,
+                     const FactorsOfSubdomains          &factors)
+  : structure(the_structure), layout(structure.coarse.layout), parts(systems.size())
 {
-  const auto                   vectors = balanced_vectors();
+  const auto                   values = balanced_vectors(gather_rows(systems, B));
   std::vector<qp::MultiVector> products(systems.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      const auto found = vectors.find(table.first + s);
-      if (found == vectors.end())
+      if (structure.parts[s].ids.empty())
         continue;
-      Part           &part   = parts[s];
-      const auto      forces = take(s, found->second);
+      const auto      found  = values.find(structure.coarse.table.first + s);
+      const auto      forces = store(s, systems[s].n_dofs(), B[s],
+                                found == values.end() ? std::vector<Value>() : found->second);
       qp::MultiVector motions(forces.n_rows(), forces.n_columns());
-      inverses[s]->apply(forces, motions);
+      factors[s]->inverse.apply(forces, motions);
       products[s] = transpose_times(forces, motions);
-      part.X      = on_boundary(motions, *schur[s]);
-      part.B      = systems[s].B;
-      for (BEntry &entry : part.B)
-        entry.dof = schur[s]->boundary_position()[entry.dof];
+      parts[s].X  = on_boundary(motions, *factors[s]->schur);
+      parts[s].B  = B[s];
+      for (BEntry &entry : parts[s].B)
+        entry.dof = factors[s]->schur->boundary_position()[entry.dof];
     }
-  if (!factor)
-    build_pattern();
-  std::fill(E.values.begin(), E.values.end(), 0.);
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    {
-      const auto &ids = parts[s].ids;
-      for (unsigned int i = 0; i < ids.size(); ++i)
-        for (unsigned int j = 0; j < ids.size(); ++j)
-          E.values[E.position(ids[i], ids[j])] += products[s](i, j);
-    }
-  sum_over_ranks(E.values, layout.communicator());
-  scale_E();
-  // Disable the check for large solutions, because the shift permits solutions of size 1/shift.
-  factor->factorize(E, "the coarse problem of the soft modes",
-                    std::numeric_limits<double>::infinity());
+  factorize(products);
 }
 
-/// Scale E to unit diagonal and add the shift.
-void Deflation::scale_E()
+/// Gather the rows of the subdomains in all neighbourhoods of this rank.
+Deflation::Copies Deflation::gather_rows(const std::vector<SubdomainSystem> &systems,
+                                         const ConstraintRows               &B) const
 {
-  scale.assign(n_global, 1.);
-  for (unsigned int i = 0; i < n_global; ++i)
+  const SubdomainTable                        &table = structure.coarse.table;
+  std::map<unsigned int, std::vector<RowCopy>> out;
+  for (unsigned int t = 0; t < systems.size(); ++t)
+    {
+      if (structure.parts[t].wanted_by.empty())
+        continue;
+      std::map<unsigned int, RowCopy> copies; // by local row
+      for (const BEntry &entry : B[t])
+        if (const unsigned int m = structure.multiplicity[entry.row]; m > 0)
+          {
+            // a new copy has G = 0
+            auto &copy        = copies.try_emplace(entry.row).first->second;
+            copy.row          = layout.global_row_of_local(entry.row);
+            copy.multiplicity = m;
+            copy.subdomain    = table.first + t;
+            for (unsigned int k = 0; k < table.n_modes; ++k)
+              copy.G[k] += entry.value * systems[t].R(entry.dof, k);
+          }
+      for (const unsigned int rank : structure.parts[t].wanted_by)
+        for (const auto &copy : copies)
+          out[rank].push_back(copy.second);
+    }
+  Copies result;
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
+    for (const RowCopy &copy : message.second)
+      result[copy.subdomain].push_back(copy);
+  return result;
+}
+
+/// Return the values of C on the rows of the subdomains of this rank, with ascending ids.
+Deflation::Values Deflation::balanced_vectors(const Copies &copies) const
+{
+  std::map<unsigned int, std::vector<Value>> out;
+  unsigned int                               id = structure.first_id;
+  for (const RowForces &raw : structure.raw)
+    {
+      std::vector<RowCopy> all;
+      for (const unsigned int member : raw.neighbourhood)
+        if (const auto of_member = copies.find(member); of_member != copies.end())
+          all.insert(all.end(), of_member->second.begin(), of_member->second.end());
+      const NeighbourhoodRows rows(std::move(all), raw.neighbourhood,
+                                   structure.coarse.table.n_modes);
+      for (unsigned int v = 0; v < raw.values.n_columns(); ++v, ++id)
+        {
+          auto c = values_on(rows, raw, v);
+          rows.balance(c);
+          for (unsigned int i = 0; i < rows.n_rows(); ++i)
+            for (const RowCopy *copy = rows.begin(i); copy != rows.end(i); ++copy)
+              out[structure.rank_of(copy->subdomain)].push_back(
+                {copy->subdomain, id, copy->row, c[i]});
+        }
+    }
+  // Messages are sorted by rank, and ids ascend with the ranks.
+  Values result;
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
+    for (const Value &value : message.second)
+      result[value.subdomain].push_back(value);
+  return result;
+}
+
+/// Store the values of C of subdomain s of this rank. @return B'C
+qp::MultiVector Deflation::store(const unsigned int         s,
+                                 const unsigned int         n_dofs,
+                                 const std::vector<BEntry> &B,
+                                 const std::vector<Value>  &values)
+{
+  const auto     &rows = structure.parts[s].rows;
+  qp::MultiVector forces(n_dofs, 0), c(layout.n_local());
+  parts[s].C = qp::MultiVector(narrow<unsigned int>(rows.size()), 0);
+  auto begin = values.begin();
+  for (const unsigned int id : structure.parts[s].ids)
+    {
+      const auto end =
+        std::find_if(begin, values.end(), [id](const Value &value) { return value.id != id; });
+      for (auto value = begin; value != end; ++value)
+        c(layout.local_row(value->row)) = value->value;
+      qp::MultiVector force(n_dofs);
+      add_transposed(B, c, force);
+      parts[s].C.append(rows_of(c, rows));
+      forces.append(force);
+      for (auto value = begin; value != end; ++value)
+        c(layout.local_row(value->row)) = 0.;
+      begin = end;
+    }
+  return forces;
+}
+
+/// Assemble E, scale E to unit diagonal, add the shift and factorize.
+void Deflation::factorize(const std::vector<qp::MultiVector> &products)
+{
+  CsrMatrix matrix = structure.E;
+  for (unsigned int s = 0; s < parts.size(); ++s)
+    {
+      const auto &ids = structure.parts[s].ids;
+      for (unsigned int i = 0; i < ids.size(); ++i)
+        for (unsigned int j = 0; j < ids.size(); ++j)
+          matrix.values[matrix.position(ids[i], ids[j])] += products[s](i, j);
+    }
+  sum_over_ranks(matrix.values, layout.communicator());
+  scale.assign(structure.n_vectors, 1.);
+  for (unsigned int i = 0; i < scale.size(); ++i)
     // the diagonal is zero for a vector that balance() has set to zero
-    if (const double diagonal = E.diagonal(i); diagonal > 0.)
+    if (const double diagonal = matrix.diagonal(i); diagonal > 0.)
       scale[i] = 1. / std::sqrt(diagonal);
-  for (unsigned int i = 0; i < n_global; ++i)
-    for (PetscInt p = E.row_start()[i]; p < E.row_start()[i + 1]; ++p)
-      E.values[p] *= scale[i] * scale[E.columns()[p]];
-  for (unsigned int i = 0; i < n_global; ++i)
-    E.values[E.position(i, i)] = 1. + shift;
+  for (unsigned int i = 0; i < scale.size(); ++i)
+    for (PetscInt p = matrix.row_start()[i]; p < matrix.row_start()[i + 1]; ++p)
+      matrix.values[p] *= scale[i] * scale[matrix.columns()[p]];
+  for (unsigned int i = 0; i < scale.size(); ++i)
+    matrix.values[matrix.position(i, i)] = 1. + shift;
+  // Disable the check for large solutions, because the shift permits solutions of size 1/shift.
+  E = structure.factors.factorize(matrix, "the coarse problem of the soft modes",
+                                  std::numeric_limits<double>::infinity());
 }
 
 /// The shift leaves a part of C'r, which no later direction could remove, because all directions
@@ -300,16 +301,16 @@ void Deflation::scale_E()
 /// y.
 qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
 {
-  qp::MultiVector scaled = b, y(n_global, b.n_columns()), left = y;
+  qp::MultiVector scaled = b, y(structure.n_vectors, b.n_columns()), left = y;
   const auto      rescale = [&](qp::MultiVector &x) {
     for (unsigned int k = 0; k < x.n_columns(); ++k)
-      for (unsigned int i = 0; i < n_global; ++i)
+      for (unsigned int i = 0; i < scale.size(); ++i)
         x(i, k) *= scale[i];
   };
   rescale(scaled);
-  factor->solve(scaled, y);
+  E->solve(scaled, y);
   left.add(shift, y);
-  factor->solve(left, scaled);
+  E->solve(left, scaled);
   y.add(1., scaled);
   rescale(y);
   return y;
@@ -319,55 +320,55 @@ qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
 qp::MultiVector Deflation::multiply(const qp::MultiVector &y) const
 {
   qp::MultiVector local(layout.n_local(), y.n_columns());
-  for (const Part &part : parts)
-    if (!part.ids.empty())
+  for (unsigned int s = 0; s < parts.size(); ++s)
+    if (const auto &ids = structure.parts[s].ids; !ids.empty())
       {
-        const auto c = times(part.C, rows_of(y, part.ids));
+        const auto c = times(parts[s].C, rows_of(y, ids));
         for (unsigned int k = 0; k < y.n_columns(); ++k)
-          for (unsigned int i = 0; i < part.rows.size(); ++i)
-            local(part.rows[i], k) = c(i, k);
+          for (unsigned int i = 0; i < structure.parts[s].rows.size(); ++i)
+            local(structure.parts[s].rows[i], k) = c(i, k);
       }
   return layout.to_owned(local);
 }
 
-std::vector<double> Deflation::remove_from(qp::MultiVector &x) const
+std::vector<double> Deflation::orthogonalize(qp::MultiVector &x) const
 {
   const auto      local = layout.to_local(x);
-  qp::MultiVector a(n_global, x.n_columns()); // (F C)'x
-  for (const Part &part : parts)
-    if (!part.ids.empty())
+  qp::MultiVector a(structure.n_vectors, x.n_columns()); // (F C)'x
+  for (unsigned int s = 0; s < parts.size(); ++s)
+    if (const auto &ids = structure.parts[s].ids; !ids.empty())
       {
-        qp::MultiVector forces(part.X.n_rows(), x.n_columns());
-        add_transposed(part.B, local, forces);
-        add_to_rows(part.ids, transpose_times(part.X, forces), a);
+        qp::MultiVector forces(parts[s].X.n_rows(), x.n_columns());
+        add_transposed(parts[s].B, local, forces);
+        add_to_rows(ids, transpose_times(parts[s].X, forces), a);
       }
-  sum(a, layout.communicator());
+  sum_over_ranks(a, layout.communicator());
   const auto y = solve(a);
   x.add(-1., multiply(y));
   std::vector<double> removed(x.n_columns(), 0.);
   for (unsigned int k = 0; k < x.n_columns(); ++k)
-    for (unsigned int i = 0; i < n_global; ++i)
+    for (unsigned int i = 0; i < structure.n_vectors; ++i)
       removed[k] += a(i, k) * y(i, k);
   return removed;
 }
 
-void Deflation::correct(qp::MultiVector &lambda, qp::MultiVector &residual) const
+void Deflation::coarse_correction(qp::MultiVector &lambda, qp::MultiVector &residual) const
 {
   const auto      r = layout.to_local(residual);
-  qp::MultiVector b(n_global, lambda.n_columns()); // C'r
-  for (const Part &part : parts)
-    if (!part.ids.empty())
-      add_to_rows(part.ids, transpose_times(part.C, rows_of(r, part.rows)), b);
-  sum(b, layout.communicator());
+  qp::MultiVector b(structure.n_vectors, lambda.n_columns()); // C'r
+  for (unsigned int s = 0; s < parts.size(); ++s)
+    if (const auto &ids = structure.parts[s].ids; !ids.empty())
+      add_to_rows(ids, transpose_times(parts[s].C, rows_of(r, structure.parts[s].rows)), b);
+  sum_over_ranks(b, layout.communicator());
   const auto y = solve(b);
   lambda.add(1., multiply(y));
   qp::MultiVector jumps(layout.n_local(), lambda.n_columns()); // F C y
-  for (const Part &part : parts)
-    if (!part.ids.empty())
+  for (unsigned int s = 0; s < parts.size(); ++s)
+    if (const auto &ids = structure.parts[s].ids; !ids.empty())
       {
-        const auto motions = times(part.X, rows_of(y, part.ids));
+        const auto motions = times(parts[s].X, rows_of(y, ids));
         for (unsigned int k = 0; k < lambda.n_columns(); ++k)
-          for (const BEntry &entry : part.B)
+          for (const BEntry &entry : parts[s].B)
             jumps(entry.row, k) += entry.value * motions(entry.dof, k);
       }
   residual.add(-1., layout.to_owned(jumps));

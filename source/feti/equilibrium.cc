@@ -1,8 +1,10 @@
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
-#include <snug/feti/total_feti.h>
+#include <snug/feti/loaded_problem.h>
 #include <snug/qp/nnls.h>
 #include <snug/qp/row_set.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,40 +24,33 @@ const double rest_cut = 1e-6;
 
 /// Return the columns Z'g_i of @p rows, each followed by the row's numbers in @p values, on all
 /// ranks and in the order of the ranks.
-qp::MultiVector row_columns(const CoarseSpace     &coarse,
-                            const RowLayout       &layout,
-                            const qp::RowSet      &rows,
-                            const qp::MultiVector &values)
+qp::MultiVector
+row_columns(const CoarseSpace &coarse, const qp::RowSet &rows, const qp::MultiVector &values)
 {
   // Row i of G'Z is the wrench of a unit force of contact i, in coordinates of the body modes.
-  auto all = coarse.transpose_multiply(coarse.body_modes(), nullptr);
+  const RowLayout &layout = coarse.structure().layout;
+  auto             all    = coarse.transpose_multiply(coarse.body_modes(), nullptr);
   all.append(values);
   std::vector<double> mine;
   for (unsigned int i = 0; i < layout.n_owned(); ++i)
     if (rows[i])
       for (unsigned int k = 0; k < all.n_columns(); ++k)
         mine.push_back(all(i, k));
-  int n_ranks, count = narrow<int>(mine.size());
-  MPI_Comm_size(layout.communicator(), &n_ranks);
-  std::vector<int> counts(n_ranks), starts(n_ranks + 1, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, layout.communicator());
-  for (int r = 0; r < n_ranks; ++r)
-    starts[r + 1] = starts[r] + counts[r];
+  std::vector<double> numbers;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(layout.communicator(), mine))
+    numbers.insert(numbers.end(), of_rank.begin(), of_rank.end());
   // Columns are contiguous in memory, so the gathered numbers are the matrix.
-  qp::MultiVector columns(all.n_columns(), starts.back() / all.n_columns());
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, columns.column(0), counts.data(), starts.data(),
-                 MPI_DOUBLE, layout.communicator());
+  qp::MultiVector columns(all.n_columns(), narrow<unsigned int>(numbers.size() / all.n_columns()));
+  std::copy(numbers.begin(), numbers.end(), columns.column(0));
   return columns;
 }
 
 /// Return an orthonormal basis of the body motions that no row of @p rows resists. @p rows holds
 /// the equality rows and some contact rows.
-qp::MultiVector motions_unseen_by(const CoarseSpace &coarse, const qp::RowSet &rows)
+qp::MultiVector motions_unresisted_by(const CoarseSpace &coarse, const qp::RowSet &rows)
 {
   // Gluing rows are among these rows, but resist no motion that moves each body rigidly.
-  CsrMatrix A = coarse.pattern();
-  A.values    = coarse.gram_values(rows);
-  return coarse.hardly_seen_motions(A).unseen;
+  return coarse.near_kernel(coarse.gram(rows)).kernel;
 }
 
 /// Return a text such as "translation (0 0 1), rotation (0 0 0)" for the motion of one body. The
@@ -126,14 +121,14 @@ std::string describe_range(qp::MultiVector P)
 /// Check whether some lambda satisfies G lambda = e, lambda_I >= 0. Multipliers of equality rows
 /// have no bounds, so only the motions Z Y that no equality row resists matter: Y'Z'G_I lambda_I =
 /// Y'Z'e. All ranks solve the same small problem with the same numbers and get the same result.
-void TotalFeti::check_equilibrium() const
+void LoadedProblem::check_equilibrium() const
 {
-  const RunContext::Timer timer(run, "solve");
-  const auto              free = motions_unseen_by(coarse, qp::complement(layout.bounded()));
+  const auto &coarse = linear.coarse();
+  const auto  free   = motions_unresisted_by(coarse, qp::complement(bounded()));
   // Supports hold all bodies, so every load can be balanced.
   if (free.n_columns() == 0)
     return;
-  const auto columns = row_columns(coarse, layout, layout.bounded(), qp::MultiVector(n_owned(), 0));
+  const auto columns  = row_columns(coarse, bounded(), qp::MultiVector(n_owned(), 0));
   auto       wrenches = transpose_times(free, columns);
   const auto whole = qp::norms(columns, MPI_COMM_SELF), part = qp::norms(wrenches, MPI_COMM_SELF);
   for (unsigned int k = 0; k < wrenches.n_columns(); ++k)
@@ -148,24 +143,27 @@ void TotalFeti::check_equilibrium() const
   // of one body may cancel, so rounding errors are relative to the loads before they cancel.
   if (residual > balance_tolerance * gross_load)
     throw SolveError("no equilibrium: " +
-                     describe_escape(times(free, balance.residual), coarse.subdomains()));
+                     describe_escape(times(free, balance.residual), linear.table()));
 }
 
 /// y = N'R'u are the coordinates of u in the motions N = Z Y that the loaded rows do not resist.
 /// Replace y by the shortest y that keeps the other contacts open, or closed as far as they are:
 /// w_i <= max(w_i, 0), with the w_i before the motion on the right.
-void TotalFeti::settle(const qp::RowSet &loaded, PrimalVectors &u, qp::MultiVector &alpha) const
+void LoadedProblem::add_minimal_rigid_motion(const qp::RowSet &loaded,
+                                             PrimalVectors    &u,
+                                             qp::MultiVector  &alpha) const
 {
-  const auto Y = motions_unseen_by(coarse, loaded);
+  const auto &coarse = linear.coarse();
+  const auto  Y      = motions_unresisted_by(coarse, loaded);
   if (Y.n_columns() == 0)
     return;
-  qp::RowSet rows = layout.bounded();
+  qp::RowSet rows = bounded();
   for (unsigned int i = 0; i < n_owned(); ++i)
     rows[i] = rows[i] && !loaded[i];
-  auto w = multiply_B(u);
+  auto w = linear.multiply_B(u);
   w.add(-1., gap);
-  const auto         columns = row_columns(coarse, layout, rows, w);
-  const auto         before  = transpose_times(times(coarse.body_modes(), Y), rigid_part(u));
+  const auto         columns = row_columns(coarse, rows, w);
+  const auto         before  = transpose_times(times(coarse.body_modes(), Y), linear.rigid_part(u));
   const unsigned int n       = columns.n_columns();
   qp::MultiVector    A(Y.n_columns(), n), b(n);
   for (unsigned int j = 0; j < n; ++j)
@@ -186,15 +184,16 @@ void TotalFeti::settle(const qp::RowSet &loaded, PrimalVectors &u, qp::MultiVect
   y.add(-1., before);
   const auto shift = times(coarse.body_modes(), times(Y, y));
   alpha.add(1., shift);
-  add_rigid(shift, u);
+  linear.add_rigid(shift, u);
 }
 
-std::vector<std::string> TotalFeti::free_bodies(const qp::RowSet &rows) const
+std::vector<std::string> free_bodies(const Linearization &linearization, const qp::RowSet &rows)
 {
-  const auto               Y = motions_unseen_by(coarse, rows);
-  const auto               m = coarse.subdomains().n_modes;
+  const auto               Y     = motions_unresisted_by(linearization.coarse(), rows);
+  const SubdomainTable    &table = linearization.table();
+  const auto               m     = table.n_modes;
   std::vector<std::string> lines;
-  for (unsigned int body = 0; body < n_bodies(); ++body)
+  for (unsigned int body = 0; body < table.n_bodies(); ++body)
     {
       qp::MultiVector P(m, m); // Y_b Y_b'
       for (unsigned int k = 0; k < Y.n_columns(); ++k)
@@ -203,8 +202,7 @@ std::vector<std::string> TotalFeti::free_bodies(const qp::RowSet &rows) const
             P(i, j) += Y(body * m + i, k) * Y(body * m + j, k);
       const auto motions = describe_range(P);
       if (!motions.empty())
-        lines.push_back("body " + coarse.subdomains().body_names[body] +
-                        " is free to move: " + motions);
+        lines.push_back("body " + table.body_names[body] + " is free to move: " + motions);
     }
   return lines;
 }

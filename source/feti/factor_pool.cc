@@ -3,22 +3,22 @@
 #include <algorithm>
 
 namespace snug::feti {
-FactorPool::FactorPool(const FactorOf              the_use,
-                       const Factorization         the_package,
-                       FillOrderings              *the_orderings,
-                       Work                       *the_work,
-                       std::shared_ptr<const Team> the_team)
+FactorPool::FactorPool(const MatrixKind                   the_use,
+                       const Factorization                the_package,
+                       FillOrderings                     *the_orderings,
+                       Work                              *the_work,
+                       std::shared_ptr<const CoarseGroup> the_group)
   : of(the_use)
   , package(the_package)
   , orderings(the_orderings)
   , work(the_work)
-  , team(std::move(the_team))
+  , group(std::move(the_group))
 {}
 
 /// The deleter of the returned pointer puts the factor back. It holds the items by a shared pointer
 /// of its own, so that a face may outlive the pool.
-std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
-                                                          const std::string &what) const
+std::shared_ptr<const SparseFactor>
+FactorPool::factorize(const CsrMatrix &A, const std::string &what, const double singular_size) const
 {
   const Key key(fingerprint(*A.pattern()), fingerprint(A.values));
   if (const auto found = items->used.find(key); found != items->used.end())
@@ -32,7 +32,7 @@ std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
   std::unique_ptr<SparseFactor> factor;
   if (spare.empty())
     {
-      factor = std::make_unique<SparseFactor>(A, of, package, orderings, team);
+      factor = std::make_unique<SparseFactor>(A, of, package, orderings, group);
       if (work != nullptr)
         ++work->symbolic_factorizations;
     }
@@ -53,7 +53,7 @@ std::shared_ptr<const SparseFactor> FactorPool::factorize(const CsrMatrix   &A,
   const std::shared_ptr<const SparseFactor> result(factor.release(), put_back);
   if (!is_known)
     {
-      fresh.factorize(A, what);
+      fresh.factorize(A, what, singular_size);
       if (work != nullptr)
         ++work->numeric_factorizations;
     }

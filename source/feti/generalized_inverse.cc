@@ -88,9 +88,12 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
       A.values[A.position(f[i], f[j])] += rho * Q(i, j);
 }
 
-void GeneralizedInverse::factorize(const std::string &what)
+GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &system,
+                                       const FactorPool      &factors,
+                                       RunContext            &the_context,
+                                       const std::string     &what)
+  : context(the_context)
 {
-  release();
   auto K_rho = with_coupled(system.K, system.fixing_dofs);
   fix_kernel(K_rho, system.fixing_dofs, rounded_rows(system.R, system.fixing_dofs));
   factor = factors.factorize(K_rho, what);

@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/feti/local_schur.h>
 #include <snug/qp/direction_basis.h>
 
@@ -10,51 +11,53 @@ namespace {
 const double rank_cut = 1e-12;
 } // namespace
 
-LocalSchur::LocalSchur(const SubdomainSystem &the_system,
-                       const bool             the_lumped,
-                       const FactorPool      &the_factors,
-                       SharedPatterns        &the_patterns,
-                       RunContext            &the_context)
-  : system(the_system)
-  , factors(the_factors)
-  , patterns(the_patterns)
-  , context(the_context)
-  , lumped(the_lumped)
-{}
-
-void LocalSchur::choose_boundary(bool with_fixing_dofs)
+LocalSchur::LocalSchur(const SubdomainSystem     &system,
+                       const std::vector<BEntry> &B,
+                       const bool                 lumped,
+                       const FactorCache         &cache,
+                       const std::string         &what)
+  : context(cache.context)
 {
-  const unsigned int n = system.n_dofs();
-  std::vector<bool>  on_boundary(n, false);
-  for (const BEntry &entry : system.B)
-    on_boundary[entry.dof] = true;
-  if (with_fixing_dofs)
-    for (const unsigned int dof : system.fixing_dofs)
-      on_boundary[dof] = true;
-  has_fixing_dofs = with_fixing_dofs;
-  n_b = n_i = 0;
-  position_b.assign(n, n);
+  std::vector<bool> in_boundary(system.n_dofs(), false);
+  for (const BEntry &entry : B)
+    in_boundary[entry.dof] = true;
+  number(in_boundary);
+  if (!boundary_holds(system.R))
+    {
+      for (const unsigned int dof : system.fixing_dofs)
+        in_boundary[dof] = true;
+      number(in_boundary);
+    }
+  bb = cache.patterns.of(extract(system.K, true, true));
+  if (lumped)
+    return;
+  ib = cache.patterns.of(extract(system.K, false, true));
+  if (n_i > 0)
+    factor = cache.interiors.factorize(extract(system.K, false, false), what);
+}
+
+/// Number the unknowns of b and the others.
+void LocalSchur::number(const std::vector<bool> &in_boundary)
+{
+  const auto n = narrow<unsigned int>(in_boundary.size());
+  n_i          = narrow<unsigned int>(std::count(in_boundary.begin(), in_boundary.end(), false));
+  n_b          = n - n_i;
+  position_b.assign(n, n_b);
   position_i.assign(n, n);
-  for (unsigned int i = 0; i < n; ++i)
-    if (on_boundary[i])
-      position_b[i] = n_b++;
+  unsigned int b = 0, i = 0;
+  for (unsigned int dof = 0; dof < n; ++dof)
+    if (in_boundary[dof])
+      position_b[dof] = b++;
     else
-      position_i[i] = n_i++;
-  for (unsigned int &position : position_b)
-    if (position == n)
-      position = n_b;
+      position_i[dof] = i++;
 }
 
 /// Return whether every rigid motion moves b. Otherwise K_ii would be singular. The number of
 /// unknowns in b does not decide this: contact rows along one axis leave the other directions free,
 /// and two nodes leave a rotation free.
-bool LocalSchur::boundary_holds() const
+bool LocalSchur::boundary_holds(const qp::MultiVector &R) const
 {
-  qp::MultiVector R_b(n_b, system.R.n_columns());
-  for (unsigned int mode = 0; mode < system.R.n_columns(); ++mode)
-    for (unsigned int i = 0; i < system.n_dofs(); ++i)
-      if (position_b[i] < n_b)
-        R_b(position_b[i], mode) = system.R(i, mode);
+  const auto R_b = on_boundary(R, *this);
   // The Gram matrix is at most 6 x 6. The singular vectors of R_b would have as many rows as b.
   const auto gram    = transpose_times(R_b, R_b);
   const auto lengths = norms(gram, MPI_COMM_SELF);
@@ -62,14 +65,15 @@ bool LocalSchur::boundary_holds() const
   return qp::null_space(gram, rank_cut * longest).n_columns() == 0;
 }
 
-CsrMatrix LocalSchur::extract(const bool rows_on_boundary, const bool columns_on_boundary) const
+CsrMatrix LocalSchur::extract(const CsrMatrix &K,
+                              const bool       rows_on_boundary,
+                              const bool       columns_on_boundary) const
 {
-  const CsrMatrix    &K = system.K;
   CsrPattern          pattern;
   std::vector<double> values;
   pattern.n_rows    = rows_on_boundary ? n_b : n_i;
   pattern.n_columns = columns_on_boundary ? n_b : n_i;
-  for (unsigned int i = 0; i < system.n_dofs(); ++i)
+  for (unsigned int i = 0; i < K.n_rows(); ++i)
     {
       if ((position_b[i] < n_b) != rows_on_boundary)
         continue;
@@ -90,21 +94,6 @@ CsrMatrix LocalSchur::extract(const bool rows_on_boundary, const bool columns_on
   pattern.columns.shrink_to_fit();
   values.shrink_to_fit();
   return {std::make_shared<const CsrPattern>(std::move(pattern)), std::move(values)};
-}
-
-void LocalSchur::factorize(const std::string &what)
-{
-  if (position_b.empty())
-    choose_boundary(false);
-  if (!has_fixing_dofs && !boundary_holds())
-    choose_boundary(true);
-  bb = patterns.of(extract(true, true));
-  if (lumped)
-    return;
-  ib = patterns.of(extract(false, true));
-  release();
-  if (n_i > 0)
-    factor = factors.factorize(extract(false, false), what);
 }
 
 qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const

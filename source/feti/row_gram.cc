@@ -33,15 +33,27 @@ std::vector<bool> coupled_to_contact(const qp::RowSet                           
     }
   return coupled;
 }
+
+/// Set x <- A^-1 x on the rows of the group. The other rows are not changed.
+void solve_group(const RowGramStructure::Group &group,
+                 const SparseFactor            &factor,
+                 qp::MultiVector               &x)
+{
+  qp::MultiVector b = rows_of(x, group.rows), y = b;
+  factor.solve(b, y);
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int i = 0; i < group.rows.size(); ++i)
+      x(group.rows[i], k) = y(i, k);
+}
 } // namespace
 
-RowGram::RowGram(const RowLayout &layout)
+RowGramStructure::RowGramStructure(const RowLayout &layout)
 {
-  const auto                                                   &start    = layout.entry_start();
-  const auto                                                   &unknowns = layout.entry_unknowns();
-  std::map<std::pair<unsigned int, unsigned int>, unsigned int> index;
-  std::vector<std::vector<unsigned int>>                        unknowns_of_row(layout.n_owned());
-  std::vector<std::vector<unsigned int>>                        rows_of_unknown;
+  const auto                                &start    = layout.entry_start();
+  const auto                                &unknowns = layout.entry_unknowns();
+  std::map<RowLayout::Unknown, unsigned int> index;
+  std::vector<std::vector<unsigned int>>     unknowns_of_row(layout.n_owned());
+  std::vector<std::vector<unsigned int>>     rows_of_unknown;
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     for (unsigned int e = start[row]; e < start[row + 1]; ++e)
       {
@@ -80,51 +92,40 @@ RowGram::RowGram(const RowLayout &layout)
           columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
           pattern.push_back(columns);
         }
-      group->matrix = CsrMatrix::from_rows(pattern, narrow<unsigned int>(group->rows.size()));
+      group->pattern =
+        CsrMatrix::from_rows(pattern, narrow<unsigned int>(group->rows.size())).pattern();
     }
 }
 
-void RowGram::update(const std::vector<double> &entries, unsigned int stride)
+RowGram::RowGram(const RowGramStructure    &the_structure,
+                 const std::vector<double> &entries,
+                 const unsigned int         stride)
+  : structure(the_structure), contact(structure.contact.pattern)
 {
-  for (Group *group : {&fixed, &contact})
-    std::fill(group->matrix.values.begin(), group->matrix.values.end(), 0.);
-  for (const auto &sharing : entries_of_unknown)
+  CsrMatrix of_fixed(structure.fixed.pattern);
+  for (const auto &sharing : structure.entries_of_unknown)
     for (const unsigned int a : sharing)
       for (const unsigned int b : sharing)
         {
-          const auto i = place[row_of_entry[a]];
-          const auto j = place[row_of_entry[b]];
-          auto      &A = (i.first ? contact : fixed).matrix;
+          const auto i = structure.place[structure.row_of_entry[a]];
+          const auto j = structure.place[structure.row_of_entry[b]];
+          auto      &A = i.first ? contact : of_fixed;
           // Add B_ia B_jb / D of the unknown that both entries share. Entries hold B and 1/D.
           A.values[A.position(i.second, j.second)] += entries[std::size_t(a) * stride] *
                                                       entries[std::size_t(b) * stride] *
                                                       entries[std::size_t(a) * stride + 1];
         }
-  fixed_factor.reset();
-  if (!fixed.rows.empty())
-    fixed_factor = factors.factorize(fixed.matrix, "B D^-1 B' of the gluing rows");
-}
-
-/// Set x <- A^-1 x on the rows of the group. The other rows are not changed.
-void RowGram::Group::solve(const SparseFactor &factor, qp::MultiVector &x) const
-{
-  qp::MultiVector b(narrow<unsigned int>(rows.size()), x.n_columns()), y = b;
-  for (unsigned int k = 0; k < x.n_columns(); ++k)
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      b(i, k) = x(rows[i], k);
-  factor.solve(b, y);
-  for (unsigned int k = 0; k < x.n_columns(); ++k)
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      x(rows[i], k) = y(i, k);
+  if (!structure.fixed.rows.empty())
+    fixed = structure.factors.factorize(of_fixed, "B D^-1 B' of the gluing rows");
 }
 
 RowGram::Factor::Factor(const RowGram &the_gram, const qp::RowSet &the_free)
   : gram(the_gram), free(the_free)
 {
-  const auto &rows = gram.contact.rows;
+  const auto &rows = gram.structure.contact.rows;
   if (rows.empty())
     return;
-  CsrMatrix matrix = gram.contact.matrix;
+  CsrMatrix matrix = gram.contact;
   for (unsigned int i = 0; i < matrix.n_rows(); ++i)
     for (PetscInt p = matrix.row_start()[i]; p < matrix.row_start()[i + 1]; ++p)
       {
@@ -134,8 +135,9 @@ RowGram::Factor::Factor(const RowGram &the_gram, const qp::RowSet &the_free)
           // factorization serve all sets.
           matrix.values[p] = i == j ? 1. : 0.;
       }
-  W = gram.factors.factorize(matrix, "B D^-1 B' of the contact rows (are two contact rows the "
-                                     "same?)");
+  W = gram.structure.factors.factorize(matrix,
+                                       "B D^-1 B' of the contact rows (are two contact rows the "
+                                       "same?)");
 }
 
 void RowGram::Factor::solve(qp::MultiVector &x) const
@@ -146,9 +148,9 @@ void RowGram::Factor::solve(qp::MultiVector &x) const
       if (!free[row])
         x(row, k) = 0.;
   // Equality rows are always in M, so the factor of the fixed group serves all faces.
-  if (gram.fixed_factor)
-    gram.fixed.solve(*gram.fixed_factor, x);
+  if (gram.fixed)
+    solve_group(gram.structure.fixed, *gram.fixed, x);
   if (W)
-    gram.contact.solve(*W, x);
+    solve_group(gram.structure.contact, *W, x);
 }
 } // namespace snug::feti

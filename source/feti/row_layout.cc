@@ -35,18 +35,18 @@ petsc::StarForest star_forest(MPI_Comm                         comm,
   return forest;
 }
 
-/// An MPI type of k doubles, freed with the object.
-class DoubleTuple
+/// An MPI type of k numbers of a type, freed with the object.
+class Tuple
 {
 public:
-  explicit DoubleTuple(unsigned int k)
+  Tuple(MPI_Datatype of_number, unsigned int k)
   {
-    MPI_Type_contiguous(k, MPI_DOUBLE, &type);
+    MPI_Type_contiguous(k, of_number, &type);
     MPI_Type_commit(&type);
   }
-  ~DoubleTuple() { MPI_Type_free(&type); }
-  DoubleTuple(const DoubleTuple &)            = delete;
-  DoubleTuple &operator=(const DoubleTuple &) = delete;
+  ~Tuple() { MPI_Type_free(&type); }
+  Tuple(const Tuple &)            = delete;
+  Tuple &operator=(const Tuple &) = delete;
   operator MPI_Datatype() const { return type; }
 
 private:
@@ -91,15 +91,12 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   first_owned = first[rank];
 
   std::vector<unsigned int> entry_rows;
-  // Store the places as doubles, which hold these integers exactly, so that one gather function
-  // serves places and values.
-  std::vector<double> entry_places; // subdomain, dof
+  std::vector<Unknown>      entry_unknowns;
   for (unsigned int s = 0; s < entries.size(); ++s)
     for (const Entry &entry : entries[s])
       {
         entry_rows.push_back(entry.global_row);
-        entry_places.push_back(first_subdomain + s);
-        entry_places.push_back(entry.dof);
+        entry_unknowns.push_back({first_subdomain + s, entry.dof});
       }
   local_rows = entry_rows;
   std::sort(local_rows.begin(), local_rows.end());
@@ -114,19 +111,17 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   start.assign(1, 0);
   for (unsigned int row = 0; row < n; ++row)
     start.push_back(start.back() + degree[row]);
-  const auto places = gather_unsorted(2, entry_places);
+  static_assert(sizeof(Unknown) == 2 * sizeof(unsigned int), "an unknown is sent as two numbers");
+  const auto gathered = gather_unsorted(Tuple(MPI_UNSIGNED, 2), 1, entry_unknowns);
   order.resize(start.back());
   std::iota(order.begin(), order.end(), 0);
   for (unsigned int row = 0; row < n; ++row)
     // Sort by subdomain and unknown. Sums over the entries of a row then do not depend on the
     // distribution of subdomains over ranks.
     std::sort(order.begin() + start[row], order.begin() + start[row + 1],
-              [&](unsigned int a, unsigned int b) {
-                return std::make_pair(places[2 * a], places[2 * a + 1]) <
-                       std::make_pair(places[2 * b], places[2 * b + 1]);
-              });
+              [&](unsigned int a, unsigned int b) { return gathered[a] < gathered[b]; });
   for (const unsigned int entry : order)
-    unknowns.emplace_back(places[2 * entry], places[2 * entry + 1]);
+    unknowns.push_back(gathered[entry]);
 }
 
 /// For a row that this rank does not touch, the result is another row's position or n_local().
@@ -141,7 +136,7 @@ qp::MultiVector RowLayout::to_local(const qp::MultiVector &owned) const
   const unsigned int  k    = owned.n_columns();
   const auto          root = interleave(owned);
   std::vector<double> leaf(std::size_t(n_local()) * k);
-  const DoubleTuple   type(k);
+  const Tuple         type(MPI_DOUBLE, k);
   check(PetscSFBcastBegin(row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
   check(PetscSFBcastEnd(row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
   return deinterleave(leaf, n_local(), k);
@@ -159,29 +154,25 @@ qp::MultiVector RowLayout::to_owned(const qp::MultiVector &local) const
   return owned;
 }
 
-std::vector<double> RowLayout::gather_unsorted(unsigned int               width,
-                                               const std::vector<double> &values) const
+template <typename T>
+std::vector<T> RowLayout::gather_unsorted(MPI_Datatype          of_entry,
+                                          unsigned int          n_per_entry,
+                                          const std::vector<T> &values) const
 {
-  std::vector<double> gathered(std::size_t(start.back()) * width);
-  const DoubleTuple   type(width);
-  check(PetscSFGatherBegin(entry_forest, type, values.data(), gathered.data()));
-  check(PetscSFGatherEnd(entry_forest, type, values.data(), gathered.data()));
+  std::vector<T> gathered(std::size_t(start.back()) * n_per_entry);
+  check(PetscSFGatherBegin(entry_forest, of_entry, values.data(), gathered.data()));
+  check(PetscSFGatherEnd(entry_forest, of_entry, values.data(), gathered.data()));
   return gathered;
 }
 
 std::vector<double> RowLayout::gather_entries(unsigned int               width,
                                               const std::vector<double> &values) const
 {
-  const auto          unsorted = gather_unsorted(width, values);
+  const auto          unsorted = gather_unsorted(Tuple(MPI_DOUBLE, width), width, values);
   std::vector<double> sorted(unsorted.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     std::copy_n(unsorted.begin() + std::size_t(order[i]) * width, width,
                 sorted.begin() + i * width);
   return sorted;
-}
-
-const std::vector<std::pair<unsigned int, unsigned int>> &RowLayout::entry_unknowns() const
-{
-  return unknowns;
 }
 } // namespace snug::feti

@@ -6,11 +6,11 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <random>
 #include <set>
+#include <tuple>
 
 namespace snug::feti {
 namespace {
@@ -44,12 +44,12 @@ public:
     : schur(the_schur), diagonal(the_schur.n_boundary(), 0.)
   {
     const auto &position = schur.boundary_position();
-    for (unsigned int i = 0; i < columns.dofs.size(); ++i)
-      for (const auto &copy : columns.copies[i])
+    for (const JumpColumn &column : columns)
+      for (const auto &copy : column.copies)
         if (copy.subdomain == subdomain)
           {
-            own.push_back({position[copy.dof], position[columns.dofs[i]], copy.value});
-            if (copy.dof == columns.dofs[i])
+            own.push_back({position[copy.dof], position[column.dof], copy.value});
+            if (copy.dof == column.dof)
               diagonal[position[copy.dof]] = copy.value;
           }
     for (const auto &entry : the_neighbours)
@@ -154,60 +154,47 @@ qp::MultiVector independent(const qp::MultiVector &gram)
   return qp::orthonormal_combinations(gram, std::vector<double>(gram.n_columns(), 0.), dependence);
 }
 
-/// Subdomains s and t.
-using Pair = std::pair<unsigned int, unsigned int>;
-
-/// Return, for each neighbour, the triples (j, i, P_ji) of all columns that have an entry there. j
-/// is an unknown of the neighbour, i one of this subdomain.
-std::map<unsigned int, std::vector<double>> of_neighbours(const JumpColumns &columns,
-                                                          const unsigned int subdomain)
+/// An entry P_ji of the columns of subdomain s at a neighbour t, where j is an unknown of t and i
+/// one of s; or an entry of P_t' K_t P_t, where both i and j are unknowns of s.
+struct NeighbourEntry
 {
-  std::map<unsigned int, std::vector<double>> result;
-  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
-    for (const auto &copy : columns.copies[i])
-      if (copy.subdomain != subdomain && copy.value != 0.)
-        {
-          auto &list = result[copy.subdomain];
-          list.insert(list.end(), {double(copy.dof), double(columns.dofs[i]), copy.value});
-        }
-  return result;
+  unsigned int s, t, j, i;
+  double       value;
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive & s & t & j & i & value;
+  }
+};
+
+using NeighbourEntries = std::vector<NeighbourEntry>;
+
+bool by_subdomains(const NeighbourEntry &a, const NeighbourEntry &b)
+{
+  return std::tie(a.s, a.t) < std::tie(b.s, b.t);
 }
 
-/// Call @p use for each part (s, t, size, numbers) of a message.
-template <typename Use>
-void for_each_part(const std::vector<double> &message, const Use &use)
+/// Append (i, i', P_ji K_jj' P_j'i') to @p products for all pairs of the entries @p begin to @p
+/// end, which belong to one s and one t, that K couples.
+void append_products(const CsrMatrix                 &K,
+                     NeighbourEntries::const_iterator begin,
+                     NeighbourEntries::const_iterator end,
+                     NeighbourEntries                &products)
 {
-  for (auto p = message.begin(); p != message.end();)
-    {
-      const Pair st   = {static_cast<unsigned int>(p[0]), static_cast<unsigned int>(p[1])};
-      const auto size = static_cast<std::ptrdiff_t>(p[2]);
-      p += 3;
-      use(st, std::vector<double>(p, p + size));
-      p += size;
-    }
-}
-
-/// Return (i, i', P_ji K_jj' P_j'i') for all pairs of (j, i, P_ji) in @p list that K couples.
-std::vector<double> products_with(const CsrMatrix &K, const std::vector<double> &list)
-{
-  std::vector<std::array<double, 3>> reached;
-  for (std::size_t i = 0; i < list.size(); i += 3)
-    reached.push_back({{list[i], list[i + 1], list[i + 2]}});
-  std::sort(reached.begin(), reached.end());
+  NeighbourEntries reached(begin, end);
+  std::sort(reached.begin(), reached.end(), [](const NeighbourEntry &a, const NeighbourEntry &b) {
+    return std::tie(a.j, a.i, a.value) < std::tie(b.j, b.i, b.value);
+  });
   std::vector<std::size_t> start(K.n_rows() + 1, 0); // of each j
   for (const auto &entry : reached)
-    ++start[static_cast<std::size_t>(entry[0]) + 1];
+    ++start[entry.j + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<double> result;
   for (const auto &a : reached)
-    {
-      const auto j = static_cast<std::size_t>(a[0]);
-      for (PetscInt place = K.row_start()[j]; place < K.row_start()[j + 1]; ++place)
-        for (auto b = start[K.columns()[place]]; b < start[K.columns()[place] + 1]; ++b)
-          result.insert(result.end(),
-                        {a[1], reached[b][1], a[2] * reached[b][2] * K.values[place]});
-    }
-  return result;
+    for (PetscInt place = K.row_start()[a.j]; place < K.row_start()[a.j + 1]; ++place)
+      for (auto b = start[K.columns()[place]]; b < start[K.columns()[place] + 1]; ++b)
+        products.push_back(
+          {a.s, a.t, reached[b].i, a.i, a.value * reached[b].value * K.values[place]});
 }
 } // namespace
 
@@ -218,42 +205,47 @@ std::vector<Entries> stiffness_of_neighbours(const std::vector<SubdomainSystem> 
                                              const unsigned int                  first,
                                              MPI_Comm                            comm)
 {
-  const SubdomainRanks                        rank_of(first, comm);
-  std::map<unsigned int, std::vector<double>> questions, answers;
+  const SubdomainRanks                     rank_of(first, comm);
+  std::map<unsigned int, NeighbourEntries> questions, answers;
   for (unsigned int s = 0; s < columns.size(); ++s)
-    for (const auto &[t, list] : of_neighbours(columns[s], first + s))
-      {
-        auto &out = questions[rank_of(t)];
-        out.insert(out.end(), {double(first + s), double(t), double(list.size())});
-        out.insert(out.end(), list.begin(), list.end());
-      }
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, questions))
-    for_each_part(message.second, [&](const Pair &st, const std::vector<double> &list) {
-      const auto answer = products_with(systems[st.second - first].K, list);
-      auto      &out    = answers[message.first];
-      out.insert(out.end(), {double(st.first), double(st.second), double(answer.size())});
-      out.insert(out.end(), answer.begin(), answer.end());
-    });
+    for (const JumpColumn &column : columns[s])
+      for (const auto &copy : column.copies)
+        if (copy.subdomain != first + s && copy.value != 0.)
+          questions[rank_of(copy.subdomain)].push_back(
+            {first + s, copy.subdomain, copy.dof, column.dof, copy.value});
+  for (auto &[rank, entries] : dealii::Utilities::MPI::some_to_some(comm, questions))
+    {
+      std::stable_sort(entries.begin(), entries.end(), by_subdomains);
+      for (auto begin = entries.begin(); begin != entries.end();)
+        {
+          const auto end = std::upper_bound(begin, entries.end(), *begin, by_subdomains);
+          append_products(systems[begin->t - first].K, begin, end, answers[rank]);
+          begin = end;
+        }
+    }
+  auto received = dealii::Utilities::MPI::some_to_some(comm, answers);
+  answers.clear(); // the entries take much memory
+  NeighbourEntries all;
+  for (auto &message : received)
+    {
+      all.insert(all.end(), message.second.begin(), message.second.end());
+      message.second = NeighbourEntries();
+    }
   // Sum over neighbours in their global order, independently of the ranks that hold them.
-  std::map<Pair, std::vector<double>> parts;
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(comm, answers))
-    for_each_part(message.second,
-                  [&](const Pair &st, const std::vector<double> &list) { parts[st] = list; });
+  std::stable_sort(all.begin(), all.end(), by_subdomains);
   std::vector<Entries> result(systems.size());
-  for (const auto &[st, part] : parts)
-    for (std::size_t i = 0; i < part.size(); i += 3)
-      result[st.first - first].push_back(
-        {static_cast<unsigned int>(part[i]), static_cast<unsigned int>(part[i + 1]), part[i + 2]});
+  for (const auto &entry : all)
+    result[entry.s - first].push_back({entry.i, entry.j, entry.value});
   return result;
 }
 
-SoftModes soft_modes(const SubdomainSystem    &system,
-                     const GeneralizedInverse &inverse,
-                     const LocalSchur         &schur,
-                     const JumpColumns        &columns,
-                     const Entries            &neighbours,
-                     const unsigned int        subdomain)
+SoftModes soft_modes(const SubdomainSystem  &system,
+                     const SubdomainFactors &factors,
+                     const JumpColumns      &columns,
+                     const Entries          &neighbours,
+                     const unsigned int      subdomain)
 {
+  const LocalSchur  &schur = *factors.schur;
   const JumpEnergy   A(schur, columns, neighbours, subdomain);
   const unsigned int n = system.n_dofs(), n_b = schur.n_boundary();
   // Rigid motions have no energy, and their mu is infinite. The natural coarse space covers them.
@@ -274,7 +266,7 @@ SoftModes soft_modes(const SubdomainSystem    &system,
     {
       // V <- K^+ A V, so that S V is A V of the previous V.
       qp::MultiVector x(n, AV.n_columns());
-      inverse.apply(from_boundary(AV, schur, n), x);
+      factors.inverse.apply(from_boundary(AV, schur, n), x);
       V                  = on_boundary(x, schur);
       qp::MultiVector SV = AV;
       off_rigid(V);
@@ -311,28 +303,28 @@ RowForces
 row_forces(const SoftModes &modes, const JumpColumns &columns, const unsigned int subdomain)
 {
   RowForces              result;
-  std::set<unsigned int> patch = {subdomain};
-  result.subdomain             = subdomain;
-  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
+  std::set<unsigned int> neighbourhood = {subdomain};
+  result.subdomain                     = subdomain;
+  for (const JumpColumn &column : columns)
     {
-      for (const auto &copy : columns.copies[i])
-        patch.insert(copy.subdomain);
-      for (const auto &force : columns.forces[i])
+      for (const auto &copy : column.copies)
+        neighbourhood.insert(copy.subdomain);
+      for (const auto &force : column.forces)
         result.rows.push_back(force.row);
     }
-  result.patch.assign(patch.begin(), patch.end());
+  result.neighbourhood.assign(neighbourhood.begin(), neighbourhood.end());
   std::sort(result.rows.begin(), result.rows.end());
   result.rows.erase(std::unique(result.rows.begin(), result.rows.end()), result.rows.end());
   const auto k  = narrow<unsigned int>(modes.mu.size());
   result.values = qp::MultiVector(narrow<unsigned int>(result.rows.size()), k);
-  for (unsigned int i = 0; i < columns.dofs.size(); ++i)
-    for (const auto &force : columns.forces[i])
+  for (const JumpColumn &column : columns)
+    for (const auto &force : column.forces)
       {
         const auto row =
           narrow<unsigned int>(std::lower_bound(result.rows.begin(), result.rows.end(), force.row) -
                                result.rows.begin());
         for (unsigned int j = 0; j < k; ++j)
-          result.values(row, j) += force.value * modes.forces(columns.dofs[i], j);
+          result.values(row, j) += force.value * modes.forces(column.dof, j);
       }
   return result;
 }

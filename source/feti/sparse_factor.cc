@@ -19,7 +19,7 @@ namespace {
 const std::string package_option = "pc_factor_mat_solver_type", kind_option = "pc_type",
                   order_option = "pc_factor_mat_ordering_type";
 
-std::string prefix_of(const FactorOf of)
+std::string prefix_of(const MatrixKind of)
 {
   return to_text(of) + "_";
 }
@@ -80,18 +80,18 @@ petsc::Matrix copy_of_all(const CsrMatrix &A)
   return copy;
 }
 
-/// Return the rows of this rank, which is one of the team.
-petsc::Matrix copy_of_own(const CsrMatrix &A, const Team &team)
+/// Return the rows of this rank, which is one of the group.
+petsc::Matrix copy_of_own(const CsrMatrix &A, const CoarseGroup &group)
 {
   const auto n                = narrow<PetscInt>(A.n_rows());
-  const auto [first, last]    = team.range(A.n_rows());
+  const auto [first, last]    = group.range(A.n_rows());
   const auto            begin = A.row_start()[first];
   std::vector<PetscInt> start;
   for (unsigned int i = first; i <= last; ++i)
     start.push_back(A.row_start()[i] - begin);
   const auto    m = narrow<PetscInt>(last - first);
   petsc::Matrix copy;
-  petsc::check(MatCreateMPIAIJWithArrays(team.communicator(), m, m, n, n, start.data(),
+  petsc::check(MatCreateMPIAIJWithArrays(group.communicator(), m, m, n, n, start.data(),
                                          A.columns().data() + begin, A.values.data() + begin,
                                          copy.put()));
   return copy;
@@ -102,32 +102,32 @@ void check_factor_options(const Factorization package)
 {
   auto one                 = CsrMatrix::from_rows({{0}}, 1);
   one.values               = {1.};
-  const std::size_t n_uses = names(FactorOf()).size();
+  const std::size_t n_uses = names(MatrixKind()).size();
   for (std::size_t use = 0; use < n_uses; ++use)
     {
-      const auto   of           = static_cast<FactorOf>(use);
-      const bool   is_stiffness = of == FactorOf::kplus || of == FactorOf::dirichlet;
+      const auto   of           = static_cast<MatrixKind>(use);
+      const bool   is_stiffness = of == MatrixKind::kplus || of == MatrixKind::dirichlet;
       SparseFactor factor(one, of, is_stiffness ? package : Factorization::CHOLMOD);
       factor.factorize(one, "the matrix 1"); // a factor of SuperLU cannot be destroyed before
     }
 }
 
-SparseFactor::SparseFactor(const CsrMatrix            &pattern,
-                           const FactorOf              of,
-                           const Factorization         the_package,
-                           FillOrderings              *the_orderings,
-                           std::shared_ptr<const Team> the_team)
+SparseFactor::SparseFactor(const CsrMatrix                   &pattern,
+                           const MatrixKind                   of,
+                           const Factorization                the_package,
+                           FillOrderings                     *the_orderings,
+                           std::shared_ptr<const CoarseGroup> the_group)
   : n(narrow<PetscInt>(pattern.n_rows()))
   , prefix(prefix_of(of))
-  , package(package_name(prefix, the_team ? Factorization::MUMPS : the_package))
+  , package(package_name(prefix, the_group ? Factorization::MUMPS : the_package))
   , is_lu(wants_lu(prefix))
   , orderings(the_orderings)
-  , team(std::move(the_team))
+  , group(std::move(the_group))
 {
   keep_to_one_thread();
-  if (!team || team->has_this_rank())
+  if (!group || group->has_this_rank())
     analyse(pattern);
-  if (team)
+  if (group)
     return;
   petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, right_hand_side.put()));
   petsc::check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, solution.put()));
@@ -137,7 +137,7 @@ SparseFactor::SparseFactor(const CsrMatrix            &pattern,
 /// factor: packages that refine their solutions keep the matrix.
 petsc::Matrix SparseFactor::petsc_copy(const CsrMatrix &A) const
 {
-  auto copy = team ? copy_of_own(A, *team) : copy_of_all(A);
+  auto copy = group ? copy_of_own(A, *group) : copy_of_all(A);
   petsc::check(MatSetOption(copy, MAT_SYMMETRIC, PETSC_TRUE));
   // This flag selects the mode of MUMPS for positive definite matrices.
   petsc::check(MatSetOption(copy, MAT_SPD, PETSC_TRUE));
@@ -177,7 +177,7 @@ petsc::IndexSet SparseFactor::elimination_order(Mat matrix, const CsrPattern &pa
   petsc::IndexSet order;
   PetscBool       takes_order;
   petsc::check(MatFactorGetCanUseOrdering(factor, &takes_order));
-  if (takes_order == PETSC_FALSE || team) // PETSc orders matrices of one rank only
+  if (takes_order == PETSC_FALSE || group) // PETSc orders matrices of one rank only
     return order;
   MatOrderingType preferred;
   petsc::check(
@@ -211,11 +211,11 @@ void SparseFactor::factorize(const CsrMatrix   &A,
     // The exponent of one entry suffices: any power of two of about the right size is a valid unit,
     // and dividing by it is exact.
     unit = std::ldexp(1., std::ilogb(A.diagonal(0)));
-  if (!team)
+  if (!group)
     factorize_values(A, what);
   else
-    throw_collectively(team->all(), [&]() {
-      if (team->has_this_rank())
+    throw_collectively(group->all(), [&]() {
+      if (group->has_this_rank())
         factorize_values(A, what);
     });
   check(A, what, singular_size);
@@ -285,8 +285,8 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
   const PetscInt k = b.n_columns();
   if (n == 0 || k == 0)
     return;
-  if (team)
-    solve_in_team(b, x);
+  if (group)
+    solve_in_group(b, x);
   else if (k == 1)
     {
       // Solve one column in place in the arrays of the vectors, without creating dense matrices.
@@ -310,20 +310,20 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
 }
 
 /// All columns are on all ranks. Each member uses its rows of b and computes its rows of x.
-void SparseFactor::solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) const
+void SparseFactor::solve_in_group(const qp::MultiVector &b, qp::MultiVector &x) const
 {
-  const auto          rows = team->range(b.n_rows());
+  const auto          rows = group->range(b.n_rows());
   const auto          m    = narrow<PetscInt>(rows.second - rows.first);
   std::vector<double> column(b.n_rows());
   petsc::Vector       from, to;
-  if (team->has_this_rank())
+  if (group->has_this_rank())
     {
-      petsc::check(VecCreateMPIWithArray(team->communicator(), 1, m, n, nullptr, from.put()));
-      petsc::check(VecCreateMPIWithArray(team->communicator(), 1, m, n, nullptr, to.put()));
+      petsc::check(VecCreateMPIWithArray(group->communicator(), 1, m, n, nullptr, from.put()));
+      petsc::check(VecCreateMPIWithArray(group->communicator(), 1, m, n, nullptr, to.put()));
     }
   for (unsigned int k = 0; k < b.n_columns(); ++k)
     {
-      if (team->has_this_rank())
+      if (group->has_this_rank())
         {
           petsc::check(VecPlaceArray(from, b.column(k) + rows.first));
           petsc::check(VecPlaceArray(to, column.data() + rows.first));
@@ -332,13 +332,15 @@ void SparseFactor::solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) c
           petsc::check(VecResetArray(from));
           petsc::check(VecResetArray(to));
         }
-      team->share(column);
+      group->allgather(column);
       std::copy(column.begin(), column.end(), x.column(k));
     }
 }
 
-std::shared_ptr<const Team>
-coarse_team(MPI_Comm all, const unsigned int n_rows, const FactorOf of, const unsigned int wanted)
+std::shared_ptr<const CoarseGroup> coarse_group(MPI_Comm           all,
+                                                const unsigned int n_rows,
+                                                const MatrixKind   of,
+                                                const unsigned int wanted)
 {
   // Measured: MUMPS takes 1.5 to 2 times as long as CHOLMOD on one rank.
   const unsigned int alone_limit = 20000, rows_of_member = 6000, least = 4;
@@ -348,6 +350,6 @@ coarse_team(MPI_Comm all, const unsigned int n_rows, const FactorOf of, const un
   const unsigned int n_members = std::min(wanted == 0 ? by_size : wanted, n_ranks);
   if (n_members == 1 || package_name(prefix_of(of), Factorization::MUMPS) != MATSOLVERMUMPS)
     return nullptr;
-  return std::make_shared<const Team>(all, n_members);
+  return std::make_shared<const CoarseGroup>(all, n_members);
 }
 } // namespace snug::feti

@@ -158,14 +158,15 @@ std::vector<double> joined(const feti::PrimalVectors &parts)
 /// The matrices K, B and R. Their unknowns are those of all subdomains, one after the other.
 struct Matrices
 {
-  Matrices(const feti::TotalFeti &feti, const feti::RowLayout &layout);
+  Matrices(const feti::LoadedProblem &feti, const feti::RowLayout &layout);
 
   Triplets K, B, R;
 };
 
-Matrices::Matrices(const feti::TotalFeti &feti, const feti::RowLayout &layout)
+Matrices::Matrices(const feti::LoadedProblem &feti, const feti::RowLayout &layout)
 {
-  for (const auto &system : feti.subdomains())
+  const auto &linearization = feti.linearization();
+  for (const auto &system : linearization.subdomains())
     {
       K.n_rows += system.n_dofs();
       R.n_columns += system.R.n_columns();
@@ -174,12 +175,13 @@ Matrices::Matrices(const feti::TotalFeti &feti, const feti::RowLayout &layout)
   B.n_rows                             = layout.n_owned();
   PetscInt dof                         = offset(K.n_rows, layout.communicator());
   PetscInt mode                        = offset(R.n_columns, layout.communicator());
-  for (const auto &system : feti.subdomains())
+  for (unsigned int s = 0; s < linearization.B().size(); ++s)
     {
+      const auto &system = linearization.subdomains()[s];
       for (unsigned int i = 0; i < system.n_dofs(); ++i)
         for (PetscInt p = system.K.row_start()[i]; p < system.K.row_start()[i + 1]; ++p)
           K.add(dof + i, dof + system.K.columns()[p], system.K.values[p]);
-      for (const auto &entry : system.B)
+      for (const auto &entry : linearization.B()[s])
         B.add(layout.global_row_of_local(entry.row), dof + entry.dof, entry.value);
       for (unsigned int i = 0; i < system.n_dofs(); ++i)
         for (unsigned int j = 0; j < system.R.n_columns(); ++j)
@@ -191,7 +193,7 @@ Matrices::Matrices(const feti::TotalFeti &feti, const feti::RowLayout &layout)
 } // namespace
 
 void export_qp(const std::string         &directory,
-               const feti::TotalFeti     &feti,
+               const feti::LoadedProblem &feti,
                const feti::RowLayout     &layout,
                const feti::PrimalVectors &u,
                const qp::MultiVector     &lambda)

@@ -132,7 +132,7 @@ void ActiveSetRun::begin(const WarmStart &from)
   // equality_part() replaces the columns of its argument by d - F times the columns. It does this
   // in the application of F that lambda_Im needs anyway.
   residual              = is_warm ? lambda : MultiVector(problem.n_owned(), 0);
-  EqualityPart equality = equality_part(problem, problem.expected_rows(), residual);
+  EqualityPart equality = equality_part(problem, problem.initial_active_set(), residual);
   scale                 = equality.scale;
   // Start cold if the start has a larger KKT residual than lambda_Im: forces of a distant state
   // predict the set worse than the expected contacts do.

@@ -100,7 +100,7 @@ void SmalseRun::begin(const WarmStart &start)
   MultiVector    none(problem.n_owned(), 0);
   // The projector of SMALSE-M is that of all rows, but residuals are scaled as by the other
   // solvers.
-  const double scale = equality_part(problem, problem.expected_rows(), none).scale;
+  const double scale = equality_part(problem, problem.initial_active_set(), none).scale;
   equality           = equality_part(problem, RowSet(problem.n_owned(), 1), none);
   equality.scale     = scale;
   MultiVector b      = equality.residual;

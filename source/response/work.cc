@@ -36,16 +36,14 @@ public:
   {
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
-    // Assemble the loads again, because the solver holds the loads of the load case solved last.
-    const auto f = solver.loads(state.positions, state.load_case);
-    // The call of feti() is collective, so every rank makes it, even a rank without subdomains.
-    const auto *feti = stiffness != 0. ? &solver.feti(state) : nullptr;
+    const auto &feti = solver.feti(state);
     for (unsigned int s = 0; s < state.u.size(); ++s)
       {
         result.u.emplace_back(state.u[s].n_rows());
-        result.u.back().add(load, f[s]);
+        result.u.back().add(load, feti.loads()[s]);
         if (stiffness != 0.)
-          feti->subdomains()[s].K.multiply_add(stiffness, state.u[s], result.u.back());
+          feti.linearization().subdomains()[s].K.multiply_add(stiffness, state.u[s],
+                                                              result.u.back());
       }
     if (stiffness != 0.)
       // The gradient is d/dX (u'Ku) at fixed u, with w = u.

@@ -62,6 +62,7 @@ Gradients<dim> difference_gradients(const GradientProblem<dim> &problem,
         result.of_response[i].values.push_back(slopes[i]);
       result.displacement.push_back(field);
     }
+  problem.solver.restore(problem.state);
   return result;
 }
 

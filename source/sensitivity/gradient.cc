@@ -114,6 +114,8 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
 template <int dim>
 Gradients<dim> gradients(const GradientProblem<dim> &problem, const Responses<dim> &responses)
 {
+  // The solver may have solved other designs since.
+  problem.solver.restore(problem.state);
   RunContext             &context = problem.solver.context();
   const RunContext::Timer timer(context, "gradient");
   const double            start  = context.seconds();

@@ -35,12 +35,12 @@ qp::RowSet weak_rows(const state::StateSolver<dim> &solver, const state::Contact
 /// Return the solution of @p problem. The solver starts from @p linear, the
 /// derivative with open weak contacts.
 KktVectors solve_from(const SensitivityQp        &problem,
-                      const feti::TotalFeti      &feti,
+                      const feti::LoadedProblem  &feti,
                       const qp::SolverParameters &parameters,
                       const KktVectors           &data,
                       const KktVectors           &linear)
 {
-  auto closing = feti.multiply_B(linear.primal);
+  auto closing = feti.linearization().multiply_B(linear.primal);
   closing.add(-1., data.dual);
   closing = problem.restricted(closing);
   qp::WarmStart start{problem.restricted(linear.dual), {}};
@@ -50,7 +50,7 @@ KktVectors solve_from(const SensitivityQp        &problem,
     choose(qp::solver_table(), parameters.method).make(parameters)->solve(problem, start);
   KktVectors result;
   result.dual   = problem.extended(solved.lambda);
-  result.primal = feti.recover(data.primal, result.dual, solved.amplitudes);
+  result.primal = feti.linearization().recover(data.primal, result.dual, solved.amplitudes);
   return result;
 }
 } // namespace

@@ -55,10 +55,10 @@ private:
   std::unique_ptr<qp::FreeSet> whole;
 };
 
-SensitivityQp::SensitivityQp(const feti::TotalFeti &feti,
-                             const qp::RowSet      &strong,
-                             const qp::RowSet      &weak,
-                             const KktVectors      &data)
+SensitivityQp::SensitivityQp(const feti::LoadedProblem &feti,
+                             const qp::RowSet          &strong,
+                             const qp::RowSet          &weak,
+                             const KktVectors          &data)
   : feti(feti)
 {
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
@@ -68,11 +68,11 @@ SensitivityQp::SensitivityQp(const feti::TotalFeti &feti,
         is_weak.push_back(weak[i]);
         F_diagonal.push_back(feti.diagonal()[i]);
       }
-  auto d = feti.multiply_B(feti.apply_inverse(data.primal));
+  auto d = feti.linearization().multiply_B(feti.linearization().apply_inverse(data.primal));
   d.add(-1., data.dual);
   dual_load  = restricted(d);
-  rigid_load = feti.rigid_part(data.primal);
-  gross_load = feti.gross_rigid_part(data.primal)[0];
+  rigid_load = feti.linearization().rigid_part(data.primal);
+  gross_load = feti.linearization().gross_rigid_part(data.primal)[0];
 }
 
 qp::MultiVector SensitivityQp::restricted(const qp::MultiVector &x) const

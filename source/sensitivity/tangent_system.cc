@@ -23,7 +23,7 @@ qp::RowSet strong_rows(const state::StateSolver<dim> &solver, const state::Conta
   return rows;
 }
 
-TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
+TangentSystem::TangentSystem(const feti::LoadedProblem  &feti,
                              const qp::RowSet           &rows,
                              const qp::SolverParameters &parameters,
                              Solves                      solves,
@@ -39,10 +39,10 @@ TangentSystem::TangentSystem(const feti::TotalFeti      &feti,
 /// loads before they cancel. B and R are orthonormal except for a few rows, so ||G|| is near 1.
 bool TangentSystem::balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const
 {
-  auto missing = feti.rigid_part(b);
+  auto missing = feti.linearization().rigid_part(b);
   missing.add(-1., feti.apply_G(mu));
   const auto errors = qp::norms(missing, MPI_COMM_SELF);
-  const auto gross  = feti.gross_rigid_part(b);
+  const auto gross  = feti.linearization().gross_rigid_part(b);
   const auto sizes  = qp::norms(mu, feti.context().communicator());
   for (unsigned int j = 0; j < errors.size(); ++j)
     if (errors[j] > parameters.relative_tolerance * (sizes[j] + gross[j]))
@@ -79,10 +79,10 @@ qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_
                                               const qp::MultiVector &mu) const
 {
   auto       unbalanced = right_hand_sides.primal;
-  const auto forces     = feti.multiply_Bt(mu);
+  const auto forces     = feti.linearization().multiply_Bt(mu);
   for (unsigned int s = 0; s < unbalanced.size(); ++s)
     unbalanced[s].add(-1., forces[s]);
-  auto residual = feti.multiply_B(feti.apply_inverse(unbalanced));
+  auto residual = feti.linearization().multiply_B(feti.linearization().apply_inverse(unbalanced));
   residual.add(-1., right_hand_sides.dual);
   return residual;
 }
@@ -92,7 +92,7 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   const auto &b = right_hand_sides.primal;
   KktVectors  result;
   result.dual = qp::MultiVector(feti.n_owned(), right_hand_sides.dual.n_columns());
-  free_set->make_feasible(result.dual, feti.rigid_part(b));
+  free_set->make_feasible(result.dual, feti.linearization().rigid_part(b));
   auto            residual  = start_residual(right_hand_sides, result.dual);
   qp::MultiVector projected = residual;
   free_set->project(projected);
@@ -113,7 +113,7 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   for (unsigned int j = 0; j < amplitudes.n_columns(); ++j)
     for (unsigned int i = 0; i < amplitudes.n_rows(); ++i)
       amplitudes(i, j) *= -1.;
-  result.primal = feti.recover(b, result.dual, amplitudes);
+  result.primal = feti.linearization().recover(b, result.dual, amplitudes);
   return result;
 }
 

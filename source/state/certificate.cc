@@ -34,25 +34,25 @@ double absolute_product(const feti::CsrMatrix &K, const qp::MultiVector &u, unsi
 
 /// Return the maximum over bodies of ||Ku - f + B'lambda|| / (||f|| + ||B'lambda||). The error of a
 /// body is zero where it is round-off of K u.
-double equilibrium_error(const feti::TotalFeti     &feti,
+double equilibrium_error(const feti::LoadedProblem &feti,
                          const qp::MultiVector     &lambda,
                          const feti::PrimalVectors &u)
 {
-  const auto         forces   = feti.multiply_Bt(lambda);
-  const unsigned int n_bodies = feti.n_bodies();
+  const auto         forces   = feti.linearization().multiply_Bt(lambda);
+  const unsigned int n_bodies = feti.linearization().table().n_bodies();
   // per body: |residual|^2, |f|^2, |B'lambda|^2 and |terms of K u|^2
   std::vector<double> squares(4 * n_bodies, 0.);
   for (unsigned int s = 0; s < u.size(); ++s)
     {
-      const auto     &system = feti.subdomains()[s];
+      const auto     &system = feti.linearization().subdomains()[s];
       double         *of     = &squares[4 * system.body];
       qp::MultiVector r      = forces[s];
       system.K.multiply_add(1., u[s], r);
       for (unsigned int i = 0; i < system.n_dofs(); ++i)
         {
-          const double error = r(i) - system.f[i];
+          const double f = feti.loads()[s](i), error = r(i) - f;
           of[0] += error * error;
-          of[1] += system.f[i] * system.f[i];
+          of[1] += f * f;
           of[2] += forces[s](i) * forces[s](i);
           // scale of the round-off of (K u)_i
           const double terms = absolute_product(system.K, u[s], i);
@@ -78,7 +78,8 @@ double equilibrium_error(const feti::TotalFeti     &feti,
 }
 /// Return F_ii |lambda_i| of the row whose estimate of it is the maximum, @p largest. The product
 /// is exact for that row, so it is a lower bound of the maximum over rows.
-double largest_product(const feti::TotalFeti &feti, const qp::MultiVector &lambda, double largest)
+double
+largest_product(const feti::LoadedProblem &feti, const qp::MultiVector &lambda, double largest)
 {
   const MPI_Comm comm = feti.context().communicator();
   int            rank = feti.context().rank(), owner = feti.context().n_ranks();
@@ -94,27 +95,29 @@ double largest_product(const feti::TotalFeti &feti, const qp::MultiVector &lambd
   if (rank == owner)
     unit(row) = 1.;
   // Do not call apply(), because F-mults count the work of solvers.
-  const auto column  = feti.multiply_B(feti.apply_inverse(feti.multiply_Bt(unit)));
-  double     product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
+  const auto column = feti.linearization().multiply_B(
+    feti.linearization().apply_inverse(feti.linearization().multiply_Bt(unit)));
+  double product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
   MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
   return product;
 }
 
 /// Return the maximum of |f_i| / K_ii over the node loads. It measures how far the loads deform the
 /// bodies where the bodies carry them without contact or gluing.
-double largest_load_product(const feti::TotalFeti &feti)
+double largest_load_product(const feti::LoadedProblem &feti)
 {
-  double largest = 0.;
-  for (const auto &system : feti.subdomains())
-    for (unsigned int i = 0; i < system.n_dofs(); ++i)
-      largest = larger(largest, std::abs(system.f[i]) / system.K.diagonal(i));
+  double      largest = 0.;
+  const auto &systems = feti.linearization().subdomains();
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+      largest = larger(largest, std::abs(feti.loads()[s](i)) / systems[s].K.diagonal(i));
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
   return largest;
 }
 
 /// Set w_i to 0 where it is round-off of B u - g. Rows of B have lengths of about one, and the
 /// coarse problem spreads round-off over all rows.
-void set_round_off_to_zero(const feti::TotalFeti     &feti,
+void set_round_off_to_zero(const feti::LoadedProblem &feti,
                            const feti::PrimalVectors &u,
                            qp::MultiVector           &w)
 {
@@ -144,10 +147,11 @@ double Certificate::worst() const
   return worst;
 }
 
-Certificate
-certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::PrimalVectors &u)
+Certificate certify(const feti::LoadedProblem &feti,
+                    const qp::MultiVector     &lambda,
+                    const feti::PrimalVectors &u)
 {
-  auto w = feti.multiply_B(u);
+  auto w = feti.linearization().multiply_B(u);
   w.add(-1., feti.g());
   set_round_off_to_zero(feti, u, w);
   // maxima of continuity, penetration, negative and positive contact force, and F_ii |lambda_i|
@@ -171,7 +175,7 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
   for (unsigned int s = 0; s < u.size(); ++s)
     {
       qp::MultiVector Ku(u[s].n_rows());
-      feti.subdomains()[s].K.multiply_add(1., u[s], Ku);
+      feti.linearization().subdomains()[s].K.multiply_add(1., u[s], Ku);
       for (unsigned int i = 0; i < u[s].n_rows(); ++i)
         sums[1] += Ku(i) * u[s](i);
     }
@@ -192,7 +196,7 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
   return certificate;
 }
 
-bool is_nearly_unloaded(const feti::TotalFeti &feti, const qp::MultiVector &lambda)
+bool is_nearly_unloaded(const feti::LoadedProblem &feti, const qp::MultiVector &lambda)
 {
   double largest[2] = {0., 0.};
   for (unsigned int i = 0; i < feti.n_owned(); ++i)

@@ -44,13 +44,13 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
 {
   const auto &feti = solver.feti(state);
   const auto  f    = feti.loads();
-  const auto  Kf   = feti.apply_inverse(f);
+  const auto  Kf   = feti.linearization().apply_inverse(f);
   // u'Ku, f'u, f'K^+f and lambda'(d + residual)
   double sums[4] = {0., 0., 0., 0.};
   for (unsigned int s = 0; s < state.u.size(); ++s)
     {
       qp::MultiVector Ku(state.u[s].n_rows());
-      feti.subdomains()[s].K.multiply_add(1., state.u[s], Ku);
+      feti.linearization().subdomains()[s].K.multiply_add(1., state.u[s], Ku);
       for (unsigned int i = 0; i < Ku.n_rows(); ++i)
         {
           sums[0] += Ku(i) * state.u[s](i);
@@ -75,7 +75,7 @@ void describe_contact(const StateSolver<dim>     &solver,
   const auto &feti  = solver.feti(state);
   auto        slack = feti.g();
   // g - B u is the remaining gap, in the units of the scaled rows.
-  slack.add(-1., feti.multiply_B(state.u));
+  slack.add(-1., feti.linearization().multiply_B(state.u));
   const std::vector<double> flags(state.dual.active.begin(), state.dual.active.end());
   const auto               &gluing = solver.gluing();
   const auto                lambda = gluing.gather_contact(state.dual.lambda.column(0));
@@ -126,7 +126,7 @@ std::vector<std::string> free_bodies(const StateSolver<dim> &solver, const Conta
   qp::RowSet  rows       = feti.bounded();
   for (unsigned int i = 0; i < rows.size(); ++i)
     rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
-  return feti.free_bodies(rows);
+  return feti::free_bodies(feti.linearization(), rows);
 }
 
 /// Sum up the contact points, which are replicated, so all ranks get the same sums without

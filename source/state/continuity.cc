@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace snug::state {
-std::vector<double> energy_norms(const feti::TotalFeti &feti, const feti::PrimalVectors &u)
+std::vector<double> energy_norms(const feti::LoadedProblem &feti, const feti::PrimalVectors &u)
 {
   // A rank may have no subdomain, so take the number of columns from all ranks.
   const unsigned int  n = u.empty() ? 0 : u.front().n_columns();
@@ -14,7 +14,7 @@ std::vector<double> energy_norms(const feti::TotalFeti &feti, const feti::Primal
   for (unsigned int s = 0; s < u.size(); ++s)
     {
       qp::MultiVector Ku(u[s].n_rows(), n);
-      feti.subdomains()[s].K.multiply_add(1., u[s], Ku);
+      feti.linearization().subdomains()[s].K.multiply_add(1., u[s], Ku);
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < Ku.n_rows(); ++i)
           squares[j] += u[s](i, j) * Ku(i, j);
@@ -26,16 +26,18 @@ std::vector<double> energy_norms(const feti::TotalFeti &feti, const feti::Primal
   return squares;
 }
 
-void make_continuous(const feti::TotalFeti &feti, const qp::MultiVector *g, feti::PrimalVectors &u)
+void make_continuous(const feti::LoadedProblem &feti,
+                     const qp::MultiVector     *g,
+                     feti::PrimalVectors       &u)
 {
-  auto jumps = feti.multiply_B(u);
+  auto jumps = feti.linearization().multiply_B(u);
   if (g)
     jumps.add(-1., *g);
   for (unsigned int i = 0; i < jumps.n_rows(); ++i)
     if (feti.bounded()[i])
       for (unsigned int j = 0; j < jumps.n_columns(); ++j)
         jumps(i, j) = 0.;
-  const auto change = feti.multiply_Bt(jumps);
+  const auto change = feti.linearization().multiply_Bt(jumps);
   for (unsigned int s = 0; s < u.size(); ++s)
     u[s].add(-1., change[s]);
 }

@@ -1,8 +1,12 @@
+#include <snug/base/narrow.h>
 #include <snug/state/gluing_rows.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/array.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -10,39 +14,16 @@ namespace snug::state {
 template <int dim>
 struct GluingRows<dim>::Message
 {
-  unsigned int           subdomain, node, row;
-  Source                 source = Source::constant;
-  unsigned int           index = 0, item = 0;
-  dealii::Tensor<1, dim> factor;
+  unsigned int            subdomain, node, row;
+  Source                  source = Source::constant;
+  unsigned int            index = 0, item = 0;
+  std::array<double, dim> factor{};
 
-  static const unsigned int size = 6 + dim;
-
-  /// Append the message to @p buffer. Indices are sent as doubles with the factors, and doubles
-  /// represent them exactly up to 2^53.
-  void append_to(std::vector<double> &buffer) const
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int)
   {
-    for (const unsigned int n :
-         {subdomain, node, row, static_cast<unsigned int>(source), index, item})
-      buffer.push_back(n);
-    for (unsigned int c = 0; c < dim; ++c)
-      buffer.push_back(factor[c]);
+    archive & subdomain & node & row & source & index & item & factor;
   }
-
-  explicit Message(const double *buffer)
-    : subdomain(buffer[0])
-    , node(buffer[1])
-    , row(buffer[2])
-    , source(static_cast<Source>(static_cast<unsigned int>(buffer[3])))
-    , index(buffer[4])
-    , item(buffer[5])
-  {
-    for (unsigned int c = 0; c < dim; ++c)
-      factor[c] = buffer[6 + c];
-  }
-
-  Message(unsigned int subdomain, unsigned int node, unsigned int row)
-    : subdomain(subdomain), node(node), row(row)
-  {}
 };
 
 template <int dim>
@@ -195,7 +176,7 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
             const double norm = std::sqrt(i * (i + 1.));
             for (unsigned int j = 0; j <= i; ++j)
               {
-                messages.emplace_back(subdomains[j], node, owned.size());
+                messages.push_back({subdomains[j], node, narrow<unsigned int>(owned.size())});
                 messages.back().factor[c] = (j < i ? 1. : -1. * i) / norm;
               }
             // Copies are equal, so the right-hand side is 0.
@@ -211,7 +192,7 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
         {
           for (const unsigned int subdomain : subdomains)
             {
-              messages.emplace_back(subdomain, node, owned.size());
+              messages.push_back({subdomain, node, narrow<unsigned int>(owned.size())});
               Message &message = messages.back();
               // A direction that follows the design has entries for all components, also where it
               // is zero at the reference geometry, because another design may rotate it.
@@ -247,7 +228,7 @@ void GluingRows<dim>::number_contact_rows(const Copies                         &
           const auto        &subdomains = nodes.at(node);
           for (const unsigned int subdomain : subdomains)
             {
-              messages.emplace_back(subdomain, node, owned.size());
+              messages.push_back({subdomain, node, narrow<unsigned int>(owned.size())});
               Message &message = messages.back();
               message.source   = Source::contact;
               message.index    = i;
@@ -273,8 +254,8 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
   const unsigned int first_row = std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
   n_global                     = std::accumulate(counts.begin(), counts.end(), 0u);
 
-  std::map<unsigned int, std::vector<double>> out;
-  const auto                                 &first = tearing.first_id_of_rank;
+  std::map<unsigned int, std::vector<Message>> out;
+  const auto                                  &first = tearing.first_id_of_rank;
   for (Message message : messages)
     {
       message.row += first_row;
@@ -282,14 +263,13 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
         // A rank without subdomains has the first id of the next rank, so the last of equal ids
         // counts.
         std::upper_bound(first.begin(), first.end(), message.subdomain) - first.begin() - 1;
-      message.append_to(out[rank]);
+      out[rank].push_back(message);
     }
   std::vector<std::vector<feti::RowLayout::Entry>> layout_entries(tearing.subdomains.size());
   entries.resize(tearing.subdomains.size());
   for (const auto &received : dealii::Utilities::MPI::some_to_some(comm, out))
-    for (std::size_t i = 0; i < received.second.size(); i += Message::size)
+    for (const Message &message : received.second)
       {
-        const Message      message(received.second.data() + i);
         const unsigned int s     = message.subdomain - tearing.first_id;
         const auto        &nodes = tearing.subdomains[s].nodes;
         const unsigned int slot =

@@ -1,7 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
 #include <snug/state/axis_checks.h>
-#include <snug/state/expected_contacts.h>
 #include <snug/state/state_problem.h>
 #include <snug/state/subdomain_table.h>
 
@@ -68,6 +67,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   , face_load(mesh.degree(), mesh.idealization())
   , resultants(mesh, face_load, model.load_cases)
   , surface(mesh, contact::boundaries_of(model.pairs))
+  , factor_cache(model.feti.factorization, context)
 {
   for (const auto &body : model.bodies)
     elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
@@ -81,7 +81,6 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
                                                     surface.gather(positions),
                                                     held->directions(surface, positions));
-  feti::SharedPatterns patterns;
   systems.resize(tearing.subdomains.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
@@ -89,7 +88,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
       assemblers.push_back(std::make_unique<Assembler<dim>>(mesh, subdomain, model,
                                                             elements[subdomain.body], face_load));
       systems[s].body        = subdomain.body;
-      systems[s].K           = patterns.of(assemblers[s]->sparsity());
+      systems[s].K           = factor_cache.patterns.of(assemblers[s]->sparsity());
       systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
       systems[s].compact     = assemblers[s]->is_compact(positions);
     }
@@ -100,16 +99,29 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
 template <int dim>
 void StateProblem<dim>::glue(const Field &positions)
 {
-  const auto reference = rows(positions);
-  feti.reset();
-  gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, reference);
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    gluing->fill_B(s, reference, systems[s].B);
-  feti = std::make_unique<feti::TotalFeti>(systems, gluing->layout(),
-                                           subdomain_table(mesh, tearing, model.body_names),
-                                           model.feti, context);
-  geometry.positions.clear();
+  forget();
+  soft_modes.reset();
+  operators.reset();
+  gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows(positions));
+  operators =
+    std::make_unique<const feti::Operators>(gluing->layout(),
+                                            subdomain_table(mesh, tearing, model.body_names),
+                                            model.feti, factor_cache);
+  pairs_of_rows = {{}, narrow<unsigned int>(contact->pairs().size()), dim};
+  for (const unsigned int i : gluing->contact_of_row())
+    pairs_of_rows.of_row.push_back(i < contact->n_rows() ? contact->places()[i].pair
+                                                         : pairs_of_rows.n);
   paired_at = positions;
+}
+
+/// Destroy the matrices and loads of the present geometry.
+template <int dim>
+void StateProblem<dim>::forget()
+{
+  loaded_problems.clear();
+  loaded_problems.resize(model.load_cases.size());
+  linearization.reset();
+  present.positions.clear();
 }
 
 template <int dim>
@@ -123,13 +135,13 @@ void StateProblem<dim>::pair(const Field &positions)
 template <int dim>
 std::vector<bool> StateProblem<dim>::moved_subdomains(const Field &positions) const
 {
-  std::vector<bool> moved(systems.size(), geometry.positions.empty());
-  if (geometry.positions.empty())
+  std::vector<bool> moved(systems.size(), present.positions.empty());
+  if (present.positions.empty())
     return moved;
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (const unsigned int cell : tearing.subdomains[s].cells)
       for (const unsigned int node : mesh.cells()[cell].nodes)
-        if (positions[node] != geometry.positions[node])
+        if (positions[node] != present.positions[node])
           moved[s] = true;
   return moved;
 }
@@ -168,19 +180,7 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
 template <int dim>
 void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool> &moved)
 {
-  const RunContext::Timer timer(context, "assembly");
-  std::vector<double>     jacobians;
-  throw_collectively(context.communicator(),
-                     [&]() { jacobians = checked_jacobians(positions, moved); });
-  // An exception from here on leaves matrices of no geometry, so forget the geometry first.
-  geometry.positions.clear();
-  loaded_case.reset();
-  scaled_jacobians = jacobians;
-  jacobians.push_back(1.); // for a rank without cells
-  geometry.least_scaled_jacobian =
-    dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
-                                context.communicator());
-  geometry.rows        = rows(positions);
+  present.rows         = rows(positions);
   const auto tractions = resultants.tractions(positions);
   loads.resize(model.load_cases.size());
   const auto assemble_subdomain = [&](const unsigned int s) {
@@ -195,56 +195,82 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
     if (moved[s] || assemblers[s]->has_resultants())
       for (unsigned int c = 0; c < loads.size(); ++c)
         {
+          const auto f = assemblers[s]->load(positions, c, tractions);
           loads[c].resize(systems.size());
-          loads[c][s] = assemblers[s]->load(positions, c, tractions);
+          loads[c][s] = qp::MultiVector(system.n_dofs());
+          std::copy(f.begin(), f.end(), loads[c][s].column(0));
         }
   };
   throw_collectively(context.communicator(), [&]() {
     for (unsigned int s = 0; s < systems.size(); ++s)
       assemble_subdomain(s);
   });
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    gluing->fill_B(s, geometry.rows, systems[s].B);
 }
 
+/// Compute the linearization at @p positions, unless it is the present one.
 template <int dim>
-void StateProblem<dim>::set_geometry(const Field &positions)
+void StateProblem<dim>::linearize(const Field &positions)
 {
   const auto moved     = moved_subdomains(positions);
   const int  any_moved = std::find(moved.begin(), moved.end(), true) != moved.end();
   if (dealii::Utilities::MPI::max(any_moved, context.communicator()) == 0)
     return;
-  assemble(positions, moved);
-  feti->update(moved);
-  geometry.positions = positions;
+  feti::FactorsOfSubdomains factors(systems.size());
+  {
+    const RunContext::Timer timer(context, "assembly");
+    std::vector<double>     jacobians;
+    throw_collectively(context.communicator(),
+                       [&]() { jacobians = checked_jacobians(positions, moved); });
+    scaled_jacobians = jacobians;
+    jacobians.push_back(1.); // for a rank without cells
+    // Only one set of matrices and factors exists at a time. The factors of moved subdomains go
+    // back to the cache, which keeps their symbolic parts.
+    if (linearization)
+      factors = linearization->factors();
+    forget();
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      if (moved[s])
+        factors[s].reset();
+    present.least_scaled_jacobian =
+      dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
+                                  context.communicator());
+    assemble(positions, moved);
+  }
+  feti::ConstraintRows B(systems.size());
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    gluing->fill_B(s, present.rows, B[s]);
+  linearization     = std::make_unique<const feti::Linearization>(*operators, systems, std::move(B),
+                                                                  std::move(factors), soft_modes);
+  soft_modes        = linearization->soft_modes();
+  present.positions = positions;
 }
 
 template <int dim>
-const Geometry<dim> &StateProblem<dim>::set(const Field &positions, const unsigned int load_case)
+void StateProblem<dim>::set(const Field &positions, const unsigned int load_case)
 {
-  if (feti->misses_soft_modes())
-    {
-      // Use the positions of the pairing, and not those at which states happen to be requested, so
-      // that a run that was interrupted finds the same soft modes again.
-      set_geometry(paired_at);
-      feti->find_soft_modes();
-    }
-  set_geometry(positions);
-  if (loaded_case == load_case)
-    return geometry;
-  loaded_case.reset();
+  // Find the soft modes at the positions of the pairing, and not at those at which states happen to
+  // be requested, so that a run that was interrupted finds the same soft modes again.
+  if (!soft_modes && operators->seeks_soft_modes(systems))
+    linearize(paired_at);
+  linearize(positions);
+  if (loaded_problems[load_case])
+    return;
   check_vanished_rows(load_case);
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    systems[s].f = loads[load_case][s];
-  feti->set_loads(gluing->right_hand_side(geometry.rows, load_case));
-  std::vector<unsigned int> pair_of_row;
-  for (const unsigned int i : gluing->contact_of_row())
-    pair_of_row.push_back(i < contact->n_rows() ? contact->places()[i].pair
-                                                : narrow<unsigned int>(contact->pairs().size()));
-  feti->expect(
-    expected_contacts(*feti, pair_of_row, narrow<unsigned int>(contact->pairs().size()), dim));
-  loaded_case = load_case;
-  return geometry;
+  loaded_problems[load_case] =
+    std::make_unique<const feti::LoadedProblem>(*linearization, loads[load_case],
+                                                gluing->right_hand_side(present.rows, load_case),
+                                                &pairs_of_rows);
+}
+
+template <int dim>
+const feti::LoadedProblem &StateProblem<dim>::loaded(const Field       &positions,
+                                                     const unsigned int load_case) const
+{
+  const auto moved = moved_subdomains(positions);
+  AssertThrow(std::find(moved.begin(), moved.end(), true) == moved.end() &&
+                loaded_problems[load_case],
+              dealii::ExcMessage("the problem is at another geometry or load case"));
+  return *loaded_problems[load_case];
 }
 
 template <int dim>
@@ -260,11 +286,11 @@ void StateProblem<dim>::check_vanished_rows(unsigned int load_case) const
   for (const auto &box : boxes)
     length = std::max(length, box.length);
   for (const unsigned int i : gluing->vanished_rows())
-    if (gluing->gap(i, geometry.rows, load_case) < -1e-10 * length)
+    if (gluing->gap(i, present.rows, load_case) < -1e-10 * length)
       {
         std::ostringstream text;
         text << "no equilibrium: contact row " << i << " has an overlap of "
-             << -gluing->gap(i, geometry.rows, load_case)
+             << -gluing->gap(i, present.rows, load_case)
              << ", but supports hold its nodes in the contact direction";
         throw SolveError(text.str());
       }

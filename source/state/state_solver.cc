@@ -22,7 +22,7 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
                                             ContactState<dim>   &state) const
 {
   qp::WarmStart        from       = start;
-  const auto          &feti       = *problem->feti;
+  const auto          &dual       = feti(state);
   qp::SolverParameters parameters = model().solver;
   const double         wanted     = state.tolerance;
   parameters.relative_tolerance   = certificate_margin * wanted;
@@ -31,11 +31,12 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
   for (unsigned int attempt = 0; attempt < 5; ++attempt)
     {
       const auto this_solver = choose(qp::solver_table(), parameters.method).make(parameters);
-      state.dual             = this_solver->solve(feti, from);
+      state.dual             = this_solver->solve(dual, from);
       outer += state.dual.outer_iterations;
-      state.u = feti.recover(feti.loads(), state.dual.lambda, state.dual.amplitudes);
-      feti.settle(state.dual.active, state.u, state.dual.amplitudes);
-      state.certificate = certify(feti, state.dual.lambda, state.u);
+      state.u =
+        dual.linearization().recover(dual.loads(), state.dual.lambda, state.dual.amplitudes);
+      dual.add_minimal_rigid_motion(state.dual.active, state.u, state.dual.amplitudes);
+      state.certificate = certify(dual, state.dual.lambda, state.u);
       if (state.certificate.worst() <= wanted)
         {
           state.solved_to             = parameters.relative_tolerance;
@@ -45,8 +46,8 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
           return;
         }
       from = {state.dual.lambda, state.dual.active, state.dual.directions};
-      if (is_nearly_unloaded(feti, from.lambda))
-        from.lambda = qp::MultiVector(feti.n_owned());
+      if (is_nearly_unloaded(dual, from.lambda))
+        from.lambda = qp::MultiVector(dual.n_owned());
       parameters.relative_tolerance *=
         certificate_margin *
         std::max(largest_step, std::min(1., wanted / state.certificate.worst()));
@@ -78,29 +79,29 @@ template <int dim>
 ContactState<dim>
 StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case)
 {
-  return solve(positions, start, load_case, relative_tolerance);
+  problem->set(positions, load_case);
+  return solve_present(positions, start, load_case, relative_tolerance);
 }
 
 template <int dim>
 ContactState<dim> StateSolver<dim>::solve_on(const ContactState<dim> &state,
                                              const double             tolerance) const
 {
-  Assert(state.pairing == n_pairings,
-         dealii::ExcMessage("the state belongs to another contact search"));
+  feti(state); // throws at another geometry
   auto result =
-    solve(state.positions, {state.dual.lambda, state.dual.active, state.dual.directions},
-          state.load_case, tolerance);
+    solve_present(state.positions, {state.dual.lambda, state.dual.active, state.dual.directions},
+                  state.load_case, tolerance);
   result.f_mults += state.f_mults;
   return result;
 }
 
 template <int dim>
-ContactState<dim> StateSolver<dim>::solve(const Field         &positions,
-                                          const qp::WarmStart &start,
-                                          const unsigned int   load_case,
-                                          const double         tolerance) const
+ContactState<dim> StateSolver<dim>::solve_present(const Field         &positions,
+                                                  const qp::WarmStart &start,
+                                                  const unsigned int   load_case,
+                                                  const double         tolerance) const
 {
-  const auto       &geometry = problem->set(positions, load_case);
+  const auto       &geometry = problem->geometry();
   ContactState<dim> state;
   state.positions             = positions;
   state.load_case             = load_case;
@@ -114,12 +115,19 @@ ContactState<dim> StateSolver<dim>::solve(const Field         &positions,
 }
 
 template <int dim>
-const feti::TotalFeti &StateSolver<dim>::feti(const ContactState<dim> &state) const
+const feti::LoadedProblem &StateSolver<dim>::feti(const ContactState<dim> &state) const
+{
+  Assert(state.pairing == n_pairings,
+         dealii::ExcMessage("the state belongs to another contact search"));
+  return problem->loaded(state.positions, state.load_case);
+}
+
+template <int dim>
+void StateSolver<dim>::restore(const ContactState<dim> &state)
 {
   Assert(state.pairing == n_pairings,
          dealii::ExcMessage("the state belongs to another contact search"));
   problem->set(state.positions, state.load_case);
-  return *problem->feti;
 }
 
 template <int dim>

@@ -35,7 +35,7 @@ std::vector<unsigned int> glue(const state::StateSolver<dim> &solver)
 }
 } // namespace
 
-Bonded::Bonded(const state::StateSolver<dim> &solver, const feti::TotalFeti &dual)
+Bonded::Bonded(const state::StateSolver<dim> &solver, const feti::LoadedProblem &dual)
 {
   number_unknowns(solver);
   assemble(solver, dual);
@@ -69,9 +69,9 @@ void Bonded::number_unknowns(const state::StateSolver<dim> &solver)
     }
 }
 
-void Bonded::assemble(const state::StateSolver<dim> &solver, const feti::TotalFeti &dual)
+void Bonded::assemble(const state::StateSolver<dim> &solver, const feti::LoadedProblem &dual)
 {
-  const auto                            &systems = dual.subdomains();
+  const auto                            &systems = dual.linearization().subdomains();
   std::vector<std::vector<unsigned int>> maps;
   for (const auto &subdomain : solver.tearing().subdomains)
     {
@@ -106,7 +106,7 @@ void Bonded::assemble(const state::StateSolver<dim> &solver, const feti::TotalFe
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (unsigned int row = 0; row < systems[s].n_dofs(); ++row)
       if (!is_held[maps[s][row]])
-        f(maps[s][row]) += systems[s].f[row];
+        f(maps[s][row]) += dual.loads()[s](row);
 }
 
 void Bonded::wrap()

@@ -16,7 +16,7 @@ class Bonded
 {
 public:
   /// @throws InputError if slave and master nodes do not match.
-  Bonded(const state::StateSolver<3> &solver, const feti::TotalFeti &dual);
+  Bonded(const state::StateSolver<3> &solver, const feti::LoadedProblem &dual);
   Bonded(const Bonded &)            = delete; ///< matrix is of the arrays of K
   Bonded &operator=(const Bonded &) = delete;
 
@@ -29,7 +29,7 @@ public:
 
 private:
   void number_unknowns(const state::StateSolver<3> &solver);
-  void assemble(const state::StateSolver<3> &solver, const feti::TotalFeti &dual);
+  void assemble(const state::StateSolver<3> &solver, const feti::LoadedProblem &dual);
   void wrap();
   void add_rigid_motions(const state::StateSolver<3> &solver);
 

@@ -1,6 +1,6 @@
 #include <snug/base/errors.h>
+#include <snug/feti/initial_active_set.h>
 #include <snug/state/certificate.h>
-#include <snug/state/expected_contacts.h>
 
 #include <benchmark/torn.h>
 
@@ -22,27 +22,38 @@ feti::SubdomainTable subdomain_table(const state::StateSolver<3> &solver)
 const double margin = 0.25;
 } // namespace
 
-Torn::Torn(const state::StateSolver<3> &solver, const feti::TotalFeti &dual, RunContext &context)
+Torn::Torn(const state::StateSolver<3> &solver,
+           const feti::LoadedProblem   &dual,
+           RunContext                  &context)
   : solver(solver)
   , dual(dual)
   , context(context)
-  , all(solver.tearing().subdomains.size(), true)
-  , none(all.size(), false)
-  , feti(dual.subdomains(),
-         solver.gluing().layout(),
-         subdomain_table(solver),
-         solver.model().feti,
-         context)
-{}
+  , cache(solver.model().feti.factorization, context)
+  , operators(solver.gluing().layout(), subdomain_table(solver), solver.model().feti, cache)
+  , soft_modes(std::make_shared<const feti::DeflationStructure>(operators.coarse,
+                                                                unsigned(dual.loads().size()),
+                                                                std::vector<feti::RowForces>(),
+                                                                1))
+  , pairs{{}, 1, 3}
+{
+  for (const auto is_contact : dual.bounded())
+    pairs.of_row.push_back(is_contact ? 0 : 1);
+}
+
+/// Linearize anew with these factors of subdomains, or null ones to be made.
+void Torn::linearize(feti::FactorsOfSubdomains factors)
+{
+  problem.reset();
+  linearization.reset();
+  const auto &now = dual.linearization();
+  linearization   = std::make_unique<feti::Linearization>(operators, now.subdomains(), now.B(),
+                                                          std::move(factors), soft_modes);
+  problem = std::make_unique<feti::LoadedProblem>(*linearization, dual.loads(), dual.g(), &pairs);
+}
 
 void Torn::factorize()
 {
-  feti.update(all);
-  feti.set_loads(dual.g());
-  std::vector<unsigned int> pair_of_row; // there is one pair
-  for (const auto is_contact : feti.bounded())
-    pair_of_row.push_back(is_contact ? 0 : 1);
-  feti.expect(state::expected_contacts(feti, pair_of_row, 1, 3));
+  linearize(feti::FactorsOfSubdomains(dual.loads().size()));
 }
 
 void Torn::solve()
@@ -57,9 +68,9 @@ void Torn::solve()
     {
       parameters.relative_tolerance *= margin;
       const auto dual =
-        choose(qp::solver_table(), parameters.method).make(parameters)->solve(feti, start);
-      const auto u = feti.recover(feti.loads(), dual.lambda, dual.amplitudes);
-      error        = state::certify(feti, dual.lambda, u).worst();
+        choose(qp::solver_table(), parameters.method).make(parameters)->solve(*problem, start);
+      const auto u = linearization->recover(problem->loads(), dual.lambda, dual.amplitudes);
+      error        = state::certify(*problem, dual.lambda, u).worst();
       start        = {dual.lambda, dual.active};
       outer_iterations += dual.outer_iterations;
   } while (error > wanted);
@@ -72,17 +83,13 @@ void Torn::solve()
 
 Stage Torn::factorization_of_inverses() const
 {
-  feti::FillOrderings    orderings;
-  const feti::FactorPool factors(feti::FactorOf::kplus, solver.model().feti.factorization,
-                                 &orderings);
+  const feti::FactorCache own(solver.model().feti.factorization, context);
   std::vector<std::unique_ptr<feti::GeneralizedInverse>> inverses;
-  for (const auto &system : feti.subdomains())
-    inverses.push_back(std::make_unique<feti::GeneralizedInverse>(system, factors, context));
-  const auto factorize = [&]() {
-    for (auto &inverse : inverses)
-      inverse->release();
-    for (auto &inverse : inverses)
-      inverse->factorize("K");
+  const auto                                             factorize = [&]() {
+    inverses.clear();
+    for (const auto &system : dual.linearization().subdomains())
+      inverses.push_back(
+        std::make_unique<feti::GeneralizedInverse>(system, own.inverses, context, "K"));
   };
   factorize(); // touches the memory
   return {"factorization of K + rho Q", 1, median_time(repeats, factorize)};
@@ -90,18 +97,14 @@ Stage Torn::factorization_of_inverses() const
 
 Stage Torn::factorization_of_interiors() const
 {
-  feti::FillOrderings    orderings;
-  feti::SharedPatterns   patterns;
-  const feti::FactorPool factors(feti::FactorOf::dirichlet, solver.model().feti.factorization,
-                                 &orderings);
+  const feti::FactorCache                        own(solver.model().feti.factorization, context);
+  const auto                                    &now = dual.linearization();
   std::vector<std::unique_ptr<feti::LocalSchur>> schur;
-  for (const auto &system : feti.subdomains())
-    schur.push_back(std::make_unique<feti::LocalSchur>(system, false, factors, patterns, context));
-  const auto factorize = [&]() {
-    for (auto &part : schur)
-      part->release();
-    for (auto &part : schur)
-      part->factorize("K_ii");
+  const auto                                     factorize = [&]() {
+    schur.clear();
+    for (unsigned int s = 0; s < now.B().size(); ++s)
+      schur.push_back(
+        std::make_unique<feti::LocalSchur>(now.subdomains()[s], now.B()[s], false, own, "K_ii"));
   };
   factorize();
   return {"factorization of K_ii", 1, median_time(repeats, factorize)};
@@ -112,23 +115,23 @@ std::vector<Stage> Torn::stages(const Seconds &whole)
   const unsigned int n_mults = work.f_mults, n_preconds = work.preconditioner_applications,
                      n_coarse = work.coarse_solves, n_outer = outer_iterations;
 
-  const auto x    = feti.d();
-  const auto face = feti.free_set(active);
+  const auto x    = problem->d();
+  const auto face = problem->free_set(active);
   auto       y    = x;
   face->project(y); // makes the coarse problem
   face->precondition(x);
   const auto make_face = [&]() {
-    const auto fresh = feti.free_set(active);
+    const auto fresh = problem->free_set(active);
     fresh->project(y);
   };
-  const Seconds apply        = median_time(repeats, [&]() { feti.apply(x); });
+  const Seconds apply        = median_time(repeats, [&]() { problem->apply(x); });
   const Seconds precondition = median_time(repeats, [&]() { face->precondition(x); });
   const Seconds project      = median_time(repeats, [&]() { face->project(y); });
   const Seconds fresh        = median_time(repeats, make_face) - project;
-  const Seconds coarse       = median_time(repeats, [&]() {
-    feti.update(none);
-    feti.set_loads(dual.g());
-  });
+  const auto    factors      = linearization->factors();
+
+  // Last, because a new linearization ends the face.
+  const Seconds coarse = median_time(repeats, [&]() { linearize(factors); });
 
   std::vector<Stage> stages = {factorization_of_inverses(),
                                factorization_of_interiors(),

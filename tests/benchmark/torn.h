@@ -26,7 +26,7 @@ class Torn
 {
 public:
   /// All must outlive this object; @p dual is the solver's. One rank.
-  Torn(const state::StateSolver<3> &solver, const feti::TotalFeti &dual, RunContext &context);
+  Torn(const state::StateSolver<3> &solver, const feti::LoadedProblem &dual, RunContext &context);
 
   /// Numeric factorizations, coarse space, d.
   void factorize();
@@ -42,17 +42,22 @@ public:
   std::vector<Stage> stages(const Seconds &whole);
 
 private:
+  void  linearize(feti::FactorsOfSubdomains factors);
   Stage factorization_of_inverses() const;
   Stage factorization_of_interiors() const;
 
-  const state::StateSolver<3> &solver;
-  const feti::TotalFeti       &dual; ///< whose systems and gaps are taken
-  RunContext                  &context;
-  std::vector<bool>            all, none;
-  feti::TotalFeti              feti;
-  qp::RowSet                   active;
-  unsigned int                 outer_iterations = 0;
-  Work                         work; ///< of the last solve
+  const state::StateSolver<3>                    &solver;
+  const feti::LoadedProblem                      &dual; ///< whose systems, loads and gaps are taken
+  RunContext                                     &context;
+  const feti::FactorCache                         cache;
+  const feti::Operators                           operators;
+  std::shared_ptr<const feti::DeflationStructure> soft_modes; ///< none
+  feti::ContactPairs                              pairs;      ///< there is one pair
+  std::unique_ptr<feti::Linearization>            linearization;
+  std::unique_ptr<feti::LoadedProblem>            problem;
+  qp::RowSet                                      active;
+  unsigned int                                    outer_iterations = 0;
+  Work                                            work; ///< of the last solve
 };
 } // namespace snug::benchmark
 

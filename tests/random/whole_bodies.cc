@@ -89,9 +89,12 @@ void WholeBodies<dim>::collect(const state::StateProblem<dim>    &state,
             problem.first.back() + dim * positions.size();
           positions.push_back(x[node]);
         }
-      for (const auto &entry : state.systems[s].B)
+      std::vector<feti::BEntry> B;
+      state.gluing->fill_B(s, rows, B);
+      for (const auto &entry : B)
         all[entry.row].coefficients.emplace_back(problem.first.back() + entry.dof, entry.value);
-      collect_body(state.systems[s], positions);
+      collect_body(state.systems[s], state.assemblers[s]->load(x, 0, state.resultants.tractions(x)),
+                   positions);
     }
   const auto surface = state.surface.gather(x);
   for (unsigned int i = 0; i < all.size(); ++i)
@@ -112,6 +115,7 @@ void WholeBodies<dim>::collect(const state::StateProblem<dim>    &state,
 
 template <int dim>
 void WholeBodies<dim>::collect_body(const feti::SubdomainSystem               &system,
+                                    const std::vector<double>                 &f,
                                     const std::vector<dealii::Tensor<1, dim>> &positions)
 {
   const unsigned int n = system.n_dofs(), first = problem.first.back();
@@ -123,7 +127,7 @@ void WholeBodies<dim>::collect_body(const feti::SubdomainSystem               &s
   problem.first.push_back(first + n);
   problem.f.grow_or_shrink(first + n);
   for (unsigned int i = 0; i < n; ++i)
-    problem.f(first + i) = system.f[i];
+    problem.f(first + i) = f[i];
 }
 
 template class WholeBodies<2>;

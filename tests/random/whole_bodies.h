@@ -37,6 +37,7 @@ private:
                const mesh::BodyMesh<dim>         &mesh,
                const state::RowCoefficients<dim> &rows);
   void collect_body(const feti::SubdomainSystem               &system,
+                    const std::vector<double>                 &f,
                     const std::vector<dealii::Tensor<1, dim>> &positions);
 };
 } // namespace snug::test

@@ -52,7 +52,8 @@ public:
   void differentiate(const Design &design, optimization::Evaluation &evaluation);
 
   /// Return the analysis of @p design with gradients, which is computed unless @p design is the
-  /// last one evaluated. It is valid until the next evaluation or contact search. Collective.
+  /// last one evaluated. It is valid until the next evaluation or contact search, and the solver is
+  /// at the geometry of its states. Collective.
   /// @throws TangledMesh, SolveError.
   Analysis<dim> &analysis(const Design &design);
 

@@ -6,42 +6,75 @@
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
 
-#include <memory>
-
 namespace snug::feti {
-/// Body and rank of every subdomain, equal on all ranks.
+/// Body of every subdomain, equal on all ranks.
 struct SubdomainTable
 {
   unsigned int              n_modes = 0; ///< number of rigid modes of each subdomain
   unsigned int              first   = 0; ///< global id of the first subdomain of this rank
   std::vector<unsigned int> body;        ///< body of each global subdomain
   std::vector<std::string>  body_names;
+
+  unsigned int n_kernel() const { return narrow<unsigned int>(body.size()) * n_modes; }
+
+  unsigned int n_bodies() const { return narrow<unsigned int>(body_names.size()); }
 };
 
 /**
- * The natural coarse space @f$G = R^T B^T@f$ (n_kernel x n). It is stored by columns, one for each
- * row of B that this rank owns. This class also holds the data that all faces share: the pattern of
- * G G', the contribution of the equality rows to G G', and the rigid modes of the bodies in coarse
+ * This class describes coarse vectors, which have n_modes numbers per subdomain, and the structure
+ * of the matrices on them: the blocks of G, the pattern of G G', and the entries of G G' to which
+ * contact rows contribute. It belongs to a pairing. Coarse vectors are equal on all ranks.
+ */
+class CoarseStructure
+{
+public:
+  /// Build the patterns for @p layout. The coarse problem is factorized by @p n_ranks ranks, see
+  /// coarse_group(). Collective.
+  CoarseStructure(const RowLayout &layout, SubdomainTable table, unsigned int n_ranks);
+
+  /// Sum @p contributions to coarse vectors over ranks. Collective.
+  void sum(qp::MultiVector &contributions) const;
+
+  /// Return the norm of each column of the coarse vectors @p c.
+  std::vector<double> norms(const qp::MultiVector &c) const;
+
+  const RowLayout          &layout;
+  const SubdomainTable      table;
+  std::vector<unsigned int> block_start;     ///< first block of each owned row
+  std::vector<unsigned int> block_subdomain; ///< subdomain of each block
+  std::vector<unsigned int> block_of_entry;  ///< block of each gathered entry
+  std::vector<unsigned int> representatives; ///< coarse coordinates of one subdomain per body
+  /// matrix with the pattern of G G', in which the representatives of all bodies are coupled
+  CsrMatrix                gram;
+  std::vector<std::size_t> bounded_places; ///< positions in gram to which contact rows contribute
+  FactorPool               factors;        ///< factorizations of G_M G_M' of the faces
+
+private:
+  void build_pattern();
+};
+
+/**
+ * The natural coarse space @f$G = R^T B^T@f$ (n_kernel x n) at a geometry. It is stored by columns,
+ * one for each row of B that this rank owns. This class also holds the data that all faces share:
+ * the contribution of the equality rows to G G', and the rigid modes of the bodies in coarse
  * coordinates.
  */
 class CoarseSpace
 {
 public:
-  /// Build the patterns for @p layout. The coarse problem is factorized by @p n_ranks ranks, see
-  /// coarse_team(). Collective.
-  CoarseSpace(const RowLayout &layout, const SubdomainTable &table, unsigned int n_ranks);
-
   /**
-   * Set the values of G and the body modes. Collective.
+   * Compute G and the body modes. Collective.
+   * @param[in] structure must outlive this object.
    * @param[in] G_entries holds, for each gathered entry of B (RowLayout), the n_modes products
-   *   B_entry * R(unknown, :). The products of consecutive entries begin @p stride numbers apart.
-   * @param[in] Z of the subdomains of this rank.
+   *   B_entry * R(unknown, :), preceded by @p offset other numbers.
+   * @param[in] systems of this rank, which have Z.
    */
-  void update(const std::vector<double>          &G_entries,
-              unsigned int                        stride,
-              const std::vector<qp::MultiVector> &Z);
+  CoarseSpace(const CoarseStructure              &structure,
+              const std::vector<double>          &G_entries,
+              unsigned int                        offset,
+              const std::vector<SubdomainSystem> &systems);
 
-  unsigned int n_kernel() const { return narrow<unsigned int>(table.body.size()) * table.n_modes; }
+  const CoarseStructure &structure() const { return pattern; }
 
   /// Return G_M x summed over ranks (n_kernel x k). M is the set of all rows if @p free is null.
   /// Collective.
@@ -50,15 +83,8 @@ public:
   /// Return G_M' alpha on the owned rows. It is zero on rows outside M.
   qp::MultiVector transpose_multiply(const qp::MultiVector &alpha, const qp::RowSet *free) const;
 
-  /// Return the values of G_M G_M' in the pattern of pattern(). Collective.
-  std::vector<double> gram_values(const qp::RowSet &free) const;
-
-  /// Return a matrix with the pattern of G G', in which the representatives of all bodies are
-  /// coupled.
-  const CsrMatrix &pattern() const { return gram; }
-
-  /// Return the pool from which faces take their factorizations.
-  const FactorPool &factors() const { return factor_pool; }
+  /// Return G_M G_M' in the pattern of CoarseStructure::gram. Collective.
+  CsrMatrix gram(const qp::RowSet &free) const;
 
   /// Return the orthonormal body modes in coarse coordinates, n_kernel x (n_bodies n_modes). They
   /// are equal on all ranks.
@@ -66,73 +92,27 @@ public:
 
   /// Orthonormal motions of the bodies that the rows M of A = G_M G_M' do not resist or hardly
   /// resist, in coordinates of body_modes().
-  struct HardlySeen
+  struct NearKernel
   {
-    qp::MultiVector unseen; ///< motions without resistance by any row of M
+    qp::MultiVector kernel; ///< motions without resistance by any row of M
     qp::MultiVector weak;   ///< weakly resisted, as by nearly parallel normals
   };
 
   /// Return the bases of both kinds of motions for the matrix @p A = G_M G_M'.
-  HardlySeen hardly_seen_motions(const CsrMatrix &A) const;
-
-  /// Return the coarse coordinates of one representative subdomain per body.
-  const std::vector<unsigned int> &representatives() const { return representative; }
-
-  const SubdomainTable &subdomains() const { return table; }
+  NearKernel near_kernel(const CsrMatrix &A) const;
 
   /// Return the Frobenius norm of G. Collective.
   double norm() const;
 
 private:
-  void build_pattern();
-
-  const RowLayout          &layout;
-  SubdomainTable            table;
-  std::vector<unsigned int> block_start;     ///< first block of each owned row
-  std::vector<unsigned int> block_subdomain; ///< subdomain of each block
-  std::vector<unsigned int> block_of_entry;  ///< block of each gathered entry
-  std::vector<double>       blocks;          ///< n_modes numbers per block of G
-  CsrMatrix                 gram;
-  std::vector<std::size_t>  bounded_places; ///< positions in gram to which contact rows contribute
-  std::vector<double>       equality_gram;
-  FactorPool                factor_pool;
-  qp::MultiVector           modes;
-  std::vector<unsigned int> representative;
-
+  void set_body_modes(const std::vector<SubdomainSystem> &systems);
   void add_row(unsigned int row, std::vector<double> &values) const;
-};
 
-/**
- * This class holds the factorized coarse problem G_M G_M' of one face, its kernel N and the motions
- * W. The rows of M hardly resist the motions W, which are scaled to W' G_M G_M' W = I. The
- * factorized matrix is
- * A = G_M G_M' + rho V_f (V_f' V_f)^{-1} V_f'
- * on the representatives f, where the columns of V span the kernel and the hardly resisted motions.
- */
-class CoarseProblem
-{
-public:
-  /// Assemble and factorize the coarse problem of the face @p free. Collective.
-  CoarseProblem(const CoarseSpace &space, const qp::RowSet &free);
-
-  /// Return the number of steps of solve(): one, or five if some motions are hardly resisted.
-  unsigned int n_steps() const { return W.n_columns() > 0 ? 5 : 1; }
-
-  /**
-   * Return the contribution of step @p step to (G_M G_M')^+ c for every column, orthogonal to N. A
-   * single step returns the whole solution if W is empty. Otherwise the solution is a sum over
-   * steps: even steps return W W'c, the part along W, and odd steps return A^{-1} c without its
-   * part in N. Each step takes the c that remains after the previous steps.
-   */
-  qp::MultiVector solve(const qp::MultiVector &c, unsigned int step) const;
-
-  /// Return N N' c.
-  qp::MultiVector kernel_part(const qp::MultiVector &c) const;
-
-private:
-  std::shared_ptr<const SparseFactor> A;
-  qp::MultiVector                     N; ///< orthonormal kernel, n_kernel x (its dimension)
-  qp::MultiVector                     W;
+  const CoarseStructure &pattern;
+  const RowLayout       &layout;
+  std::vector<double>    blocks; ///< n_modes numbers per block of G
+  std::vector<double>    equality_gram;
+  qp::MultiVector        modes;
 };
 } // namespace snug::feti
 

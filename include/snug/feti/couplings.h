@@ -1,15 +1,35 @@
 #ifndef snug_feti_couplings_h
 #define snug_feti_couplings_h
 
+#include <snug/qp/multi_vector.h>
+
 #include <mpi.h>
 
 #include <set>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace snug::feti {
 /// Row and column of an entry in the pattern of a replicated matrix.
-using Coupling = std::pair<unsigned int, unsigned int>;
+struct Coupling
+{
+  unsigned int row, column;
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive & row & column;
+  }
+
+  bool operator<(const Coupling &other) const
+  {
+    return std::tie(row, column) < std::tie(other.row, other.column);
+  }
+  bool operator==(const Coupling &other) const
+  {
+    return row == other.row && column == other.column;
+  }
+};
 
 /// Return the union of the couplings of all ranks, sorted. Collective.
 std::vector<Coupling> unite(const std::set<Coupling> &mine, MPI_Comm comm);
@@ -17,6 +37,7 @@ std::vector<Coupling> unite(const std::set<Coupling> &mine, MPI_Comm comm);
 /// Sum @p values over ranks. The order of the summation depends on the number of ranks, and with it
 /// the last digits of the result. Collective.
 void sum_over_ranks(std::vector<double> &values, MPI_Comm comm);
+void sum_over_ranks(qp::MultiVector &values, MPI_Comm comm);
 } // namespace snug::feti
 
 #endif

@@ -2,23 +2,60 @@
 #define snug_feti_deflation_h
 
 #include <snug/feti/coarse_space.h>
+#include <snug/feti/neighbourhood_rows.h>
 #include <snug/feti/soft_modes.h>
+#include <snug/feti/subdomain_factors.h>
 
 #include <map>
 #include <memory>
 #include <set>
 
 namespace snug::feti {
+/// This struct is the part of a Deflation that belongs to a pairing: the row forces of the soft
+/// modes, the subdomains that they reach, and the pattern of E.
+struct DeflationStructure
+{
+  /// Take the row forces @p the_raw of those subdomains of this rank that have soft modes, in
+  /// ascending order of the subdomains. @p the_coarse must outlive this object. E is factorized by
+  /// @p coarse_ranks ranks, see coarse_group(). Collective.
+  DeflationStructure(const CoarseStructure &the_coarse,
+                     unsigned int           n_subdomains,
+                     std::vector<RowForces> the_raw,
+                     unsigned int           coarse_ranks);
+
+  /// The part of a subdomain t in the vectors whose neighbourhood contains t.
+  struct Part
+  {
+    std::vector<unsigned int> ids;       ///< ids of the vectors, ascending
+    std::vector<unsigned int> rows;      ///< local rows that have t as their lowest subdomain
+    std::set<unsigned int>    wanted_by; ///< ranks of the vectors, which need the rows of t
+  };
+
+  const CoarseStructure    &coarse;
+  SubdomainRanks            rank_of;
+  std::vector<RowForces>    raw;
+  unsigned int              first_id = 0, n_vectors = 0; ///< of this rank; over all ranks
+  std::vector<unsigned int> multiplicity; ///< subdomains of each local equality row, or 0
+  std::vector<Part>         parts;        ///< of the subdomains of this rank
+  CsrMatrix                 E;            ///< pattern
+  FactorPool                factors{MatrixKind::soft_modes}; ///< factorizations of E
+
+private:
+  void count_subdomains();
+  void find_parts();
+  void build_pattern();
+};
+
 /**
  * This class deflates the dual problem by directions C, which PCPG then need not find: E = C'FC is
  * factorized, and all other directions are made F-orthogonal to C. A column of C is B_D y for the
  * forces y of a soft mode, made self-equilibrated (G c = 0) by row forces of minimum norm. These
- * act on the rows of the patch that no subdomain outside the patch shares. The patch of a soft mode
- * consists of its subdomain and the neighbours of its subdomain. C is zero on contact rows, so that
- * it lies in every face.
+ * act on the rows of the neighbourhood that no subdomain outside the neighbourhood shares. The
+ * neighbourhood of a soft mode consists of its subdomain and the neighbours of its subdomain. C is
+ * zero on contact rows, so that it lies in every face.
  *
- * Each subdomain t stores, for every vector c whose patch contains t, its part of c and the values
- * of K^+ B_t'c on its boundary. F C is never assembled.
+ * Each subdomain t stores, for every vector c whose neighbourhood contains t, its part of c and the
+ * values of K^+ B_t'c on its boundary. F C is never assembled.
  *
  * Sources: Farhat, Chen, Risler, Roux, A simple and unified framework for accelerating the
  * convergence of iterative substructuring methods with Lagrange multipliers, Int. J. Numer. Meth.
@@ -27,68 +64,60 @@ namespace snug::feti {
 class Deflation
 {
 public:
-  /// Take the row forces @p raw of those subdomains of this rank that have soft modes, in ascending
-  /// order of the subdomains. Systems and layout must outlive this object. E is factorized by
-  /// @p coarse_ranks ranks, see coarse_team(). Collective.
-  Deflation(const std::vector<SubdomainSystem> &systems,
-            const RowLayout                    &layout,
-            const SubdomainTable               &table,
-            unsigned int                        coarse_ranks,
-            std::vector<RowForces>              raw);
-
-  /// Compute C, F C and E for the present matrices. Collective.
-  void update(const std::vector<std::unique_ptr<GeneralizedInverse>> &inverses,
-              const std::vector<std::unique_ptr<LocalSchur>>         &schur);
-
-  /// Return the number of columns of C, over all ranks.
-  unsigned int n_vectors() const { return n_global; }
+  /// Compute C, F C and E. @p structure must outlive this object. The other arguments are those of
+  /// a Linearization. Collective.
+  Deflation(const DeflationStructure           &structure,
+            const std::vector<SubdomainSystem> &systems,
+            const ConstraintRows               &B,
+            const FactorsOfSubdomains          &factors);
 
   /// Set x <- x - C E^-1 (F C)'x. @return the square of the F-norm of the removed part, for each
   /// column. Collective.
-  std::vector<double> remove_from(qp::MultiVector &x) const;
+  std::vector<double> orthogonalize(qp::MultiVector &x) const;
 
   /// Minimize over the span of C: lambda += C E^-1 C'r, r -= F C E^-1 C'r. Collective.
-  void correct(qp::MultiVector &lambda, qp::MultiVector &residual) const;
+  void coarse_correction(qp::MultiVector &lambda, qp::MultiVector &residual) const;
 
 private:
-  /// The data that a subdomain t stores of the vectors whose patch contains t.
+  /// The data that a subdomain t stores of the vectors whose neighbourhood contains t.
   struct Part
   {
-    std::vector<unsigned int> ids;  ///< ids of the vectors, ascending
-    std::vector<unsigned int> rows; ///< local rows that have t as their lowest subdomain
-    qp::MultiVector           C;    ///< values of C on these rows
-    std::vector<BEntry>       B;    ///< entries of B, numbered on the boundary
-    qp::MultiVector           X;    ///< boundary values of K^+ B'C
+    qp::MultiVector     C; ///< values of C on the rows of the part
+    std::vector<BEntry> B; ///< entries of B, numbered on the boundary
+    qp::MultiVector     X; ///< boundary values of K^+ B'C
   };
 
-  /// Messages by subdomain (global id). For the rows, a message holds, for each equality row of the
-  /// subdomain, the global row, the number of its subdomains and n_modes numbers of G. For C, a
-  /// message holds, for each vector, its id, the length of its list and the list of pairs (global
-  /// row, value).
-  using Numbers = std::map<unsigned int, std::vector<double>>;
+  /// The value of a vector on a row, as a message to one of the row's subdomains.
+  struct Value
+  {
+    unsigned int subdomain, id, row; ///< global
+    double       value;
 
-  Numbers         gather_rows() const;
-  Numbers         balanced_vectors() const;
-  qp::MultiVector take(unsigned int s, const std::vector<double> &vectors);
-  void            build_pattern();
-  void            scale_E();
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive & subdomain & id & row & value;
+    }
+  };
+
+  using Values = std::map<unsigned int, std::vector<Value>>;
+  using Copies = std::map<unsigned int, std::vector<RowCopy>>;
+
+  Copies gather_rows(const std::vector<SubdomainSystem> &systems, const ConstraintRows &B) const;
+  Values balanced_vectors(const Copies &copies) const;
+  qp::MultiVector store(unsigned int               s,
+                        unsigned int               n_dofs,
+                        const std::vector<BEntry> &B,
+                        const std::vector<Value>  &values);
+  void            factorize(const std::vector<qp::MultiVector> &products);
   qp::MultiVector multiply(const qp::MultiVector &y) const;
   qp::MultiVector solve(const qp::MultiVector &b) const;
 
-  const std::vector<SubdomainSystem> &systems;
+  const DeflationStructure           &structure;
   const RowLayout                    &layout;
-  SubdomainTable                      table;
-  SubdomainRanks                      rank_of;
-  std::vector<RowForces>              raw;
-  unsigned int                        first_id = 0, n_global = 0;
-  std::vector<unsigned int>
-    n_copies; ///< number of subdomains of each local equality row, 0 for contact rows
-  std::vector<std::set<unsigned int>> wanted_by; ///< ranks that need the rows of each subdomain
   std::vector<Part>                   parts;
-  CsrMatrix                           E;
   std::vector<double>                 scale; ///< scales the diagonal of E to 1
-  std::shared_ptr<const Team>         team;  ///< ranks that hold the factor of E
-  std::unique_ptr<SparseFactor>       factor;
+  std::shared_ptr<const SparseFactor> E;
 };
 } // namespace snug::feti
 

@@ -21,17 +21,18 @@ class FactorPool
 public:
   /// Create an empty pool. The default is CHOLMOD with its own orderings, whatever the package of
   /// the stiffness, because most matrices are small. Factorizations are counted in @p work. Both
-  /// @p work and @p orderings must outlive this object. See SparseFactor for @p team.
-  explicit FactorPool(FactorOf                    of,
-                      Factorization               package   = Factorization::CHOLMOD,
-                      FillOrderings              *orderings = nullptr,
-                      Work                       *work      = nullptr,
-                      std::shared_ptr<const Team> team      = nullptr);
+  /// @p work and @p orderings must outlive this object. See SparseFactor for @p group.
+  explicit FactorPool(MatrixKind                         of,
+                      Factorization                      package   = Factorization::CHOLMOD,
+                      FillOrderings                     *orderings = nullptr,
+                      Work                              *work      = nullptr,
+                      std::shared_ptr<const CoarseGroup> group     = nullptr);
 
   /// Return the factorization of @p A. It goes back to the pool when the pointer and its copies are
   /// destroyed. The pointer may outlive the pool.
-  /// @throws SolveError see SparseFactor::factorize()
-  std::shared_ptr<const SparseFactor> factorize(const CsrMatrix &A, const std::string &what) const;
+  /// @throws SolveError see SparseFactor::factorize(), also for @p singular_size
+  std::shared_ptr<const SparseFactor>
+  factorize(const CsrMatrix &A, const std::string &what, double singular_size = 1e11) const;
 
 private:
   /// Fingerprints of a pattern and of the values.
@@ -51,12 +52,12 @@ private:
     std::map<Key, std::weak_ptr<const SparseFactor>> used;
   };
 
-  FactorOf                    of;
-  Factorization               package;
-  FillOrderings              *orderings;
-  Work                       *work;
-  std::shared_ptr<const Team> team;
-  std::shared_ptr<Items>      items = std::make_shared<Items>();
+  MatrixKind                         of;
+  Factorization                      package;
+  FillOrderings                     *orderings;
+  Work                              *work;
+  std::shared_ptr<const CoarseGroup> group;
+  std::shared_ptr<Items>             items = std::make_shared<Items>();
 };
 } // namespace snug::feti
 

@@ -1,14 +1,15 @@
 #ifndef snug_feti_feti_free_set_h
 #define snug_feti_feti_free_set_h
 
-#include <snug/feti/total_feti.h>
+#include <snug/feti/coarse_problem.h>
+#include <snug/feti/linearization.h>
 
 namespace snug::feti {
 /// This class is a face of the dual problem of Total FETI. Its parts are made at their first use.
-class TotalFeti::FetiFreeSet : public qp::FreeSet
+class Linearization::FetiFreeSet : public qp::FreeSet
 {
 public:
-  FetiFreeSet(const TotalFeti &feti, const qp::RowSet &free);
+  FetiFreeSet(const Linearization &feti, const qp::RowSet &free);
 
   const qp::RowSet   &rows() const override;
   void                project(qp::MultiVector &x) const override;
@@ -24,7 +25,7 @@ private:
   void restrict(qp::MultiVector &x) const;
   void subtract_rigid_part(qp::MultiVector &x, qp::MultiVector &alpha) const;
 
-  const TotalFeti                         &feti;
+  const Linearization                     &feti;
   qp::RowSet                               free;
   mutable std::unique_ptr<CoarseProblem>   problem;
   mutable std::unique_ptr<RowGram::Factor> gram;

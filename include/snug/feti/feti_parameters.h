@@ -62,7 +62,7 @@ struct FetiParameters
   Preconditioner preconditioner = Preconditioner::Dirichlet;
   Scaling        scaling        = Scaling::stiffness;
   SoftModesOf    soft_modes     = SoftModesOf::likely;
-  unsigned int   coarse_ranks   = 0; ///< see coarse_team()
+  unsigned int   coarse_ranks   = 0; ///< see coarse_group()
 
   void declare(Entries &entries);
 };

@@ -31,25 +31,17 @@ void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::Mult
 class GeneralizedInverse
 {
 public:
-  /// Store the references. The system, the factors and the context must outlive this object.
-  GeneralizedInverse(const SubdomainSystem &the_system,
-                     const FactorPool      &the_factors,
-                     RunContext            &the_context)
-    : system(the_system), factors(the_factors), context(the_context)
-  {}
-
-  /// Factorize K_rho = K + rho Q_f for the present K and R. Error messages call the matrix @p what.
-  void factorize(const std::string &what);
-
-  /// Return the factor to the pool, which may use it for other matrices of the pattern.
-  void release() { factor.reset(); }
+  /// Factorize K_rho = K + rho Q_f. Error messages call the matrix @p what. The context must
+  /// outlive this object.
+  GeneralizedInverse(const SubdomainSystem &system,
+                     const FactorPool      &factors,
+                     RunContext            &context,
+                     const std::string     &what);
 
   /// Compute x = K^+ b for every column.
   void apply(const qp::MultiVector &b, qp::MultiVector &x) const;
 
 private:
-  const SubdomainSystem              &system;
-  const FactorPool                   &factors;
   RunContext                         &context;
   std::shared_ptr<const SparseFactor> factor;
 };

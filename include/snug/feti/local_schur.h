@@ -1,8 +1,7 @@
 #ifndef snug_feti_local_schur_h
 #define snug_feti_local_schur_h
 
-#include <snug/base/run_context.h>
-#include <snug/feti/factor_pool.h>
+#include <snug/feti/factor_cache.h>
 #include <snug/feti/subdomain_system.h>
 
 #include <memory>
@@ -12,23 +11,18 @@ namespace snug::feti {
  * The primal operator of one subdomain in the preconditioner,
  * S = K_bb - K_bi K_ii^{-1} K_ib ("Dirichlet") or K_bb ("lumped").
  * b are the unknowns with an entry in B. The fixing unknowns are added to b if holding the unknowns
- * with entries in B leaves the subdomain a rigid motion. factorize() chooses b.
+ * with entries in B leaves the subdomain a rigid motion.
  */
 class LocalSchur
 {
 public:
-  /// Keep references to all arguments. The referenced objects must outlive this object.
-  LocalSchur(const SubdomainSystem &system,
-             bool                   lumped,
-             const FactorPool      &factors,
-             SharedPatterns        &patterns,
-             RunContext            &context);
-
-  /// Extract the blocks of the present K and factorize K_ii. Error messages call it @p what.
-  void factorize(const std::string &what);
-
-  /// Return the factor to the pool, which may use it for other matrices of the pattern.
-  void release() { factor.reset(); }
+  /// Extract the blocks of K and factorize K_ii for the unknowns b of @p B. Error messages call the
+  /// matrix @p what. The caches keep patterns and factors of former matrices.
+  LocalSchur(const SubdomainSystem     &system,
+             const std::vector<BEntry> &B,
+             bool                       lumped,
+             const FactorCache         &cache,
+             const std::string         &what);
 
   /// Return the position in b of each unknown of the subdomain, or n_boundary() outside b.
   const std::vector<unsigned int> &boundary_position() const { return position_b; }
@@ -39,16 +33,11 @@ public:
   qp::MultiVector apply(const qp::MultiVector &x) const;
 
 private:
-  void      choose_boundary(bool with_fixing_dofs);
-  bool      boundary_holds() const;
-  CsrMatrix extract(bool rows_on_boundary, bool columns_on_boundary) const;
+  void      number(const std::vector<bool> &in_boundary);
+  bool      boundary_holds(const qp::MultiVector &R) const;
+  CsrMatrix extract(const CsrMatrix &K, bool rows_on_boundary, bool columns_on_boundary) const;
 
-  const SubdomainSystem              &system;
-  const FactorPool                   &factors;
-  SharedPatterns                     &patterns;
   RunContext                         &context;
-  const bool                          lumped;
-  bool                                has_fixing_dofs = false;
   unsigned int                        n_b = 0, n_i = 0;
   std::vector<unsigned int>           position_b, position_i;
   CsrMatrix                           bb; ///< lower triangle of K_bb

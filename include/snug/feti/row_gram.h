@@ -7,6 +7,30 @@
 #include <memory>
 
 namespace snug::feti {
+/// This class is the structure of a RowGram: its groups of rows and their patterns. It belongs to a
+/// pairing.
+struct RowGramStructure
+{
+  explicit RowGramStructure(const RowLayout &layout);
+
+  /// One group of rows. No row couples two groups.
+  struct Group
+  {
+    std::vector<unsigned int>         rows; ///< owned rows, ascending
+    std::shared_ptr<const CsrPattern> pattern;
+  };
+
+  Group         fixed;   ///< rows that are not coupled to contact rows
+  Group         contact; ///< contact rows and the rows coupled to them
+  FillOrderings orderings;
+  FactorPool    factors{MatrixKind::row_gram, Factorization::CHOLMOD, &orderings};
+  /// of each owned row: (in the contact group, index in its group)
+  std::vector<std::pair<bool, unsigned>> place;
+  /// gathered entries of each unknown (subdomain, dof)
+  std::vector<std::vector<unsigned int>> entries_of_unknown;
+  std::vector<unsigned int>              row_of_entry;
+};
+
 /**
  * The Gram matrix @f$W_M = B_M D^{-1} B_M^T@f$ of the rows of B on the owned rows. It corrects the
  * preconditioner where rows are not orthonormal: stiffness scaling, node-to-face rows, supports at
@@ -16,10 +40,11 @@ namespace snug::feti {
 class RowGram
 {
 public:
-  explicit RowGram(const RowLayout &layout);
-
-  /// Set the values. @p entries holds B and 1/D for each gathered entry, @p stride numbers apart.
-  void update(const std::vector<double> &entries, unsigned int stride);
+  /// Compute the values. @p entries holds B and 1/D for each gathered entry, @p stride numbers
+  /// apart. @p structure must outlive this object.
+  RowGram(const RowGramStructure    &structure,
+          const std::vector<double> &entries,
+          unsigned int               stride);
 
   /// The part of the factorization that depends on the set M.
   class Factor
@@ -37,23 +62,9 @@ public:
   };
 
 private:
-  /// One group of rows with its matrix in the group's numbering.
-  struct Group
-  {
-    std::vector<unsigned int> rows; ///< owned rows, ascending
-    CsrMatrix                 matrix;
-    void                      solve(const SparseFactor &factor, qp::MultiVector &x) const;
-  };
-
-  Group         fixed, contact;
-  FillOrderings orderings;
-  FactorPool    factors{FactorOf::row_gram, Factorization::CHOLMOD, &orderings};
-  std::vector<std::pair<bool, unsigned>>
-    place; ///< of each owned row: (in contact group, index in group)
-  std::shared_ptr<const SparseFactor> fixed_factor;
-  /// Gathered entries of each unknown (subdomain, dof).
-  std::vector<std::vector<unsigned int>> entries_of_unknown;
-  std::vector<unsigned int>              row_of_entry;
+  const RowGramStructure             &structure;
+  CsrMatrix                           contact; ///< matrix of the contact group
+  std::shared_ptr<const SparseFactor> fixed;   ///< factor of the fixed group
 };
 } // namespace snug::feti
 

@@ -5,6 +5,8 @@
 #include <snug/base/petsc_handle.h>
 #include <snug/qp/dual_problem.h>
 
+#include <tuple>
+
 namespace snug::feti {
 /**
  * This class describes the distribution of the rows of B over ranks. Each row is owned by one rank.
@@ -20,6 +22,18 @@ public:
   {
     unsigned int global_row;
     unsigned int dof;
+  };
+
+  /// An unknown: global subdomain and number in the subdomain.
+  struct Unknown
+  {
+    unsigned int subdomain;
+    unsigned int dof;
+
+    bool operator<(const Unknown &other) const
+    {
+      return std::tie(subdomain, dof) < std::tie(other.subdomain, other.dof);
+    }
   };
 
   /**
@@ -56,11 +70,16 @@ public:
   std::vector<double> gather_entries(unsigned int width, const std::vector<double> &values) const;
   /// Return the first gathered entry of each owned row; n_owned + 1 numbers.
   const std::vector<unsigned int> &entry_start() const { return start; }
-  /// Return the global subdomain and the unknown of each gathered entry.
-  const std::vector<std::pair<unsigned int, unsigned int>> &entry_unknowns() const;
+  /// Return the unknown of each gathered entry.
+  const std::vector<Unknown> &entry_unknowns() const { return unknowns; }
 
 private:
-  std::vector<double> gather_unsorted(unsigned int width, const std::vector<double> &values) const;
+  /// Gather the values of the entries, rank by rank. The @p n_per_entry values of an entry are one
+  /// item of the MPI type @p of_entry.
+  template <typename T>
+  std::vector<T> gather_unsorted(MPI_Datatype          of_entry,
+                                 unsigned int          n_per_entry,
+                                 const std::vector<T> &values) const;
 
   MPI_Comm                  comm;
   qp::RowSet                is_bounded;
@@ -69,7 +88,7 @@ private:
   petsc::StarForest         row_forest, entry_forest;
   std::vector<unsigned int> start;
   std::vector<unsigned int> order; ///< sorted order of the gathered entries
-  std::vector<std::pair<unsigned int, unsigned int>> unknowns;
+  std::vector<Unknown>      unknowns;
 };
 } // namespace snug::feti
 

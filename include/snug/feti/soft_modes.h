@@ -1,9 +1,8 @@
 #ifndef snug_feti_soft_modes_h
 #define snug_feti_soft_modes_h
 
-#include <snug/feti/generalized_inverse.h>
-#include <snug/feti/jump_columns.h>
-#include <snug/feti/local_schur.h>
+#include <snug/feti/jump_operator.h>
+#include <snug/feti/subdomain_factors.h>
 
 namespace snug::feti {
 /// Entry (i, j) of a matrix on the unknowns of a subdomain. Several entries of one place are
@@ -50,8 +49,7 @@ struct SoftModes
  * Int. J. Numer. Meth. Engng 95 (2013).
  */
 SoftModes soft_modes(const SubdomainSystem            &system,
-                     const GeneralizedInverse         &inverse,
-                     const LocalSchur                 &schur,
+                     const SubdomainFactors           &factors,
                      const JumpColumns                &columns,
                      const std::vector<JumpStiffness> &neighbours,
                      unsigned int                      subdomain);
@@ -59,13 +57,13 @@ SoftModes soft_modes(const SubdomainSystem            &system,
 /// Row forces B_D y of the soft modes of one subdomain, before they are brought into equilibrium.
 struct RowForces
 {
-  unsigned int              subdomain; ///< global id
-  std::vector<unsigned int> patch;     ///< the subdomain and its neighbours, ascending
-  std::vector<unsigned int> rows;      ///< global rows, ascending
-  qp::MultiVector           values;    ///< rows x modes
+  unsigned int              subdomain;     ///< global id
+  std::vector<unsigned int> neighbourhood; ///< the subdomain and its neighbours, ascending
+  std::vector<unsigned int> rows;          ///< global rows, ascending
+  qp::MultiVector           values;        ///< rows x modes
 };
 
-/// Return the row forces B_D y of @p modes, with the patch of @p subdomain (global id).
+/// Return the row forces B_D y of @p modes, with the neighbourhood of @p subdomain (global id).
 RowForces row_forces(const SoftModes &modes, const JumpColumns &columns, unsigned int subdomain);
 } // namespace snug::feti
 

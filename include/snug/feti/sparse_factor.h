@@ -2,10 +2,10 @@
 #define snug_feti_sparse_factor_h
 
 #include <snug/base/petsc_handle.h>
+#include <snug/feti/coarse_group.h>
 #include <snug/feti/csr_matrix.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/feti/fill_orderings.h>
-#include <snug/feti/team.h>
 
 #include <memory>
 
@@ -14,7 +14,7 @@ namespace snug::feti {
 /// -NAME_pc_factor_mat_solver_type PACKAGE, -NAME_pc_type cholesky or lu,
 /// -NAME_pc_factor_mat_ordering_type ORDER and the options of the package, as
 /// -NAME_mat_mumps_icntl_7.
-enum class FactorOf
+enum class MatrixKind
 {
   kplus,
   dirichlet,
@@ -22,7 +22,7 @@ enum class FactorOf
   soft_modes,
   row_gram
 };
-inline Names names(FactorOf)
+inline Names names(MatrixKind)
 {
   return {{"kplus", "K with fixed nodes, whose inverse is K^+"},
           {"dirichlet", "the inner unknowns of a subdomain, in the Dirichlet preconditioner"},
@@ -39,7 +39,7 @@ void check_factor_options(Factorization package);
 
 /**
  * This class is the Cholesky factorization of sparse symmetric positive definite matrices of one
- * pattern by a package of PETSc, on one process or on a team of processes. The symbolic part is
+ * pattern by a package of PETSc, on one process or on a group of processes. The symbolic part is
  * done once. Scaling the matrix by a power of two changes no digit of the factor: the package
  * factorizes the matrix divided by a power of two of its size, so that no square root of its units
  * is taken. No matrix is kept.
@@ -54,15 +54,15 @@ public:
    * @param[in] package unless the options name another package.
    * @param[in] orderings from which CHOLMOD takes its order; null: CHOLMOD tries some orderings of
    *   its own.
-   * @param[in] team factorizes matrices that are the same on all its ranks, and all functions are
-   *   collective on team->all(); null: this rank factorizes alone.
+   * @param[in] group factorizes matrices that are the same on all its ranks, and all functions are
+   *   collective on group->all(); null: this rank factorizes alone.
    * @throws InputError see check_factor_options()
    */
-  SparseFactor(const CsrMatrix            &pattern,
-               FactorOf                    of,
-               Factorization               package,
-               FillOrderings              *orderings = nullptr,
-               std::shared_ptr<const Team> team      = nullptr);
+  SparseFactor(const CsrMatrix                   &pattern,
+               MatrixKind                         of,
+               Factorization                      package,
+               FillOrderings                     *orderings = nullptr,
+               std::shared_ptr<const CoarseGroup> group     = nullptr);
 
   /**
    * Factorize a matrix of the pattern. A further matrix may follow, also after an error.
@@ -82,29 +82,29 @@ private:
   void            factorize_values(const CsrMatrix &A, const std::string &what);
   void            check(const CsrMatrix &A, const std::string &what, double singular_size) const;
   petsc::Matrix   petsc_copy(const CsrMatrix &A) const;
-  void            solve_in_team(const qp::MultiVector &b, qp::MultiVector &x) const;
+  void            solve_in_group(const qp::MultiVector &b, qp::MultiVector &x) const;
 
-  PetscInt                    n;
-  std::string                 prefix, package; ///< PETSc's names of the use and of the package
-  bool                        is_lu;
-  FillOrderings              *orderings;
-  std::shared_ptr<const Team> team; ///< declared before the objects on its communicator
-  petsc::Matrix               factor;
-  petsc::Vector               right_hand_side, solution;
-  bool                        has_failed = false;
-  double                      unit       = 1.; ///< power of two; the factor is that of A / unit
+  PetscInt       n;
+  std::string    prefix, package; ///< PETSc's names of the use and of the package
+  bool           is_lu;
+  FillOrderings *orderings;
+  std::shared_ptr<const CoarseGroup> group; ///< declared before the objects on its communicator
+  petsc::Matrix                      factor;
+  petsc::Vector                      right_hand_side, solution;
+  bool                               has_failed = false;
+  double                             unit = 1.; ///< power of two; the factor is that of A / unit
 };
 
 /**
- * Return the team that factorizes a replicated coarse problem of @p n_rows rows, or null if each
+ * Return the group that factorizes a replicated coarse problem of @p n_rows rows, or null if each
  * rank factorizes it for itself. @p wanted is the number of members; 0 chooses the number by size.
  * Up to 20,000 rows, or with fewer than four ranks, each rank factorizes for itself: one rank is
- * then faster than a team, and also faster than a team of three. Larger problems have one member
+ * then faster than a group, and also faster than a group of three. Larger problems have one member
  * for 6,000 rows, but at least four members. The result is also null if PETSc's options name a
  * package other than MUMPS. Collective.
  */
-std::shared_ptr<const Team>
-coarse_team(MPI_Comm all, unsigned int n_rows, FactorOf of, unsigned int wanted);
+std::shared_ptr<const CoarseGroup>
+coarse_group(MPI_Comm all, unsigned int n_rows, MatrixKind of, unsigned int wanted);
 } // namespace snug::feti
 
 #endif

@@ -15,13 +15,11 @@ struct BEntry
 };
 
 /**
- * The equations of one floating subdomain.
+ * The stiffness of one floating subdomain at one geometry.
  *
  * | symbol | meaning                                 | size            |
  * |--------|-----------------------------------------|-----------------|
  * | K      | stiffness, singular [force/length]      | n x n           |
- * | f      | loads [force]                           | n               |
- * | B      | gluing, support and contact rows        | n_rows x n      |
  * | R      | orthonormal rigid body modes, K R = 0   | n x n_modes     |
  * | Z      | R Z = rigid modes of the whole body     | n_modes x n_modes |
  */
@@ -30,14 +28,15 @@ struct SubdomainSystem
   unsigned int              body    = 0;
   bool                      compact = false; ///< compact shape and cells, hence without soft modes
   CsrMatrix                 K;
-  std::vector<double>       f;
-  std::vector<BEntry>       B;
   qp::MultiVector           R;
   qp::MultiVector           Z;
   std::vector<unsigned int> fixing_dofs; ///< unknowns of a few far-apart nodes
 
   unsigned int n_dofs() const { return K.n_rows(); }
 };
+
+/// B of the subdomains of this rank: gluing, support and contact rows, n_rows x n each.
+using ConstraintRows = std::vector<std::vector<BEntry>>;
 
 /// Primal vectors: one multi-vector per subdomain of this rank.
 using PrimalVectors = std::vector<qp::MultiVector>;

@@ -1,7 +1,7 @@
 #ifndef snug_io_qp_export_h
 #define snug_io_qp_export_h
 
-#include <snug/feti/total_feti.h>
+#include <snug/feti/loaded_problem.h>
 
 #include <string>
 
@@ -17,7 +17,7 @@ namespace snug::io {
  * @param[in] layout the rows of @p feti.
  */
 void export_qp(const std::string         &directory,
-               const feti::TotalFeti     &feti,
+               const feti::LoadedProblem &feti,
                const feti::RowLayout     &layout,
                const feti::PrimalVectors &u,
                const qp::MultiVector     &lambda);

@@ -32,7 +32,7 @@ struct ActiveSetOptions
  * same set, because @f$\lambda_i w_i = 0@f$. For rough solutions @f$w_i@f$ on the active rows is
  * the error of the inner solve, which does not affect the set in this form.
  *
- * The start is lambda_Im on DualProblem::expected_rows(), or the WarmStart. A set too small to
+ * The start is lambda_Im on DualProblem::initial_active_set(), or the WarmStart. A set too small to
  * balance the loads gains the contacts that close in the motion that the set leaves free. There is
  * no proof of convergence for elasticity. Repeated sets therefore lead to more exact inner solves,
  * then to changes of one row (the one with the largest number), then to SMALSE-M. A KKT residual

@@ -119,7 +119,7 @@ public:
 
   /// Return a guess of the rows that carry a force: all equality rows and the expected contacts.
   /// Residuals are scaled with these rows, and active sets begin with them.
-  virtual RowSet expected_rows() const { return RowSet(n_owned(), 1); }
+  virtual RowSet initial_active_set() const { return RowSet(n_owned(), 1); }
 };
 } // namespace snug::qp
 

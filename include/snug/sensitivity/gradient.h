@@ -19,8 +19,8 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
 /**
  * Compute dJ/dalpha of every response by parameters.method. If parameters.shape_gradient is set,
  * compute dJ/dX too. A method that differentiates only along the variables gives dJ/dX only as the
- * field V (V'V)^-1 dJ/dalpha. Finite differences leave the solver at a geometry other than that of
- * the state: call solve() again before any further use of the solver. Collective.
+ * field V (V'V)^-1 dJ/dalpha. The solver is at the geometry of the state before and after.
+ * Collective.
  * @throws SolveError, and InputError if a response has no energy gradient.
  */
 template <int dim>

@@ -1,7 +1,7 @@
 #ifndef snug_sensitivity_sensitivity_qp_h
 #define snug_sensitivity_sensitivity_qp_h
 
-#include <snug/feti/total_feti.h>
+#include <snug/feti/loaded_problem.h>
 #include <snug/sensitivity/kkt_vectors.h>
 
 namespace snug::sensitivity {
@@ -25,10 +25,10 @@ public:
    * @param[in] data ft and ct, one column.
    * Collective.
    */
-  SensitivityQp(const feti::TotalFeti &feti,
-                const qp::RowSet      &strong,
-                const qp::RowSet      &weak,
-                const KktVectors      &data);
+  SensitivityQp(const feti::LoadedProblem &feti,
+                const qp::RowSet          &strong,
+                const qp::RowSet          &weak,
+                const KktVectors          &data);
 
   /// Return the entries of @p x at the rows of this problem. @p x has the rows of
   /// the state's problem.
@@ -56,19 +56,19 @@ public:
   }
   double feasibility_scale(double force) const override
   {
-    return gross_load + feti.coarse_norm() * force;
+    return gross_load + feti.linearization().coarse().norm() * force;
   }
   std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
 
 private:
   class PartOfFreeSet;
 
-  const feti::TotalFeti    &feti;
-  std::vector<unsigned int> row; ///< row of the state's problem
-  qp::RowSet                is_weak;
-  std::vector<double>       F_diagonal;
-  qp::MultiVector           dual_load, rigid_load;
-  double                    gross_load;
+  const feti::LoadedProblem &feti;
+  std::vector<unsigned int>  row; ///< row of the state's problem
+  qp::RowSet                 is_weak;
+  std::vector<double>        F_diagonal;
+  qp::MultiVector            dual_load, rigid_load;
+  double                     gross_load;
 };
 } // namespace snug::sensitivity
 

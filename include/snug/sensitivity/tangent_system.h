@@ -30,7 +30,7 @@ class TangentSystem
 public:
   /// @p feti must outlive this object. Solves begin in the directions @p known of
   /// the state's solver. Collective.
-  TangentSystem(const feti::TotalFeti      &feti,
+  TangentSystem(const feti::LoadedProblem  &feti,
                 const qp::RowSet           &rows,
                 const qp::SolverParameters &parameters,
                 Solves                      solves,
@@ -51,7 +51,7 @@ private:
                            bool                       deflates) const;
   bool            balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const;
 
-  const feti::TotalFeti             &feti;
+  const feti::LoadedProblem         &feti;
   const qp::SolverParameters         parameters;
   const Solves                       solves;
   const std::unique_ptr<qp::FreeSet> free_set;

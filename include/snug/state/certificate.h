@@ -1,13 +1,14 @@
 #ifndef snug_state_certificate_h
 #define snug_state_certificate_h
 
-#include <snug/feti/total_feti.h>
+#include <snug/feti/loaded_problem.h>
 #include <snug/state/contact_state.h>
 
 namespace snug::state {
 /// Return the certificate of u and lambda, computed from K, f, B and g alone. Collective.
-Certificate
-certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::PrimalVectors &u);
+Certificate certify(const feti::LoadedProblem &feti,
+                    const qp::MultiVector     &lambda,
+                    const feti::PrimalVectors &u);
 
 /**
  * Return whether the forces move the bodies by less than a thousandth of the lengths that gaps and
@@ -15,7 +16,7 @@ certify(const feti::TotalFeti &feti, const qp::MultiVector &lambda, const feti::
  * iteration errors of forces that are zero in the exact solution. A start from zero forces finds an
  * unloaded state exactly. Collective.
  */
-bool is_nearly_unloaded(const feti::TotalFeti &feti, const qp::MultiVector &lambda);
+bool is_nearly_unloaded(const feti::LoadedProblem &feti, const qp::MultiVector &lambda);
 } // namespace snug::state
 
 #endif

@@ -1,7 +1,7 @@
 #ifndef snug_state_continuity_h
 #define snug_state_continuity_h
 
-#include <snug/feti/total_feti.h>
+#include <snug/feti/loaded_problem.h>
 
 namespace snug::state {
 /**
@@ -11,11 +11,13 @@ namespace snug::state {
  * where the rows B_E of gluing and supports are orthonormal, so copies of a node become their mean.
  * @param g right-hand side of all owned rows; null: zero. Collective.
  */
-void make_continuous(const feti::TotalFeti &feti, const qp::MultiVector *g, feti::PrimalVectors &u);
+void make_continuous(const feti::LoadedProblem &feti,
+                     const qp::MultiVector     *g,
+                     feti::PrimalVectors       &u);
 
 /// Return the energy norms (u'Ku)^(1/2) of the columns of @p u [(force length)^(1/2)], empty
 /// without columns. Collective.
-std::vector<double> energy_norms(const feti::TotalFeti &feti, const feti::PrimalVectors &u);
+std::vector<double> energy_norms(const feti::LoadedProblem &feti, const feti::PrimalVectors &u);
 } // namespace snug::state
 
 #endif

@@ -2,13 +2,12 @@
 #define snug_state_state_problem_h
 
 #include <snug/contact/contact.h>
-#include <snug/feti/total_feti.h>
+#include <snug/feti/loaded_problem.h>
 #include <snug/state/assembler.h>
 #include <snug/state/body_boxes.h>
 #include <snug/state/gluing.h>
 
 #include <memory>
-#include <optional>
 
 namespace snug::state {
 /// A geometry with the data from which its matrices were made.
@@ -23,7 +22,8 @@ struct Geometry
 /**
  * This class is the state problem of Total FETI. Topology, pairing, gluing and symbolic
  * factorizations are made once, at the geometry given to the constructor. set() computes the
- * numbers. The members below are the parts of the problem, for reading only.
+ * matrices and loads of a geometry, which this class keeps until the next geometry. The public
+ * members are the parts of the problem, for reading only.
  */
 template <int dim>
 class StateProblem
@@ -38,16 +38,23 @@ public:
                const Field               &positions,
                RunContext                &context);
 
-  /// Run a new contact search at @p positions. feti has no numbers until set(). Collective.
+  /// Run a new contact search at @p positions, and forget the present geometry. Collective.
   void pair(const Field &positions);
 
   /**
-   * Set the matrices, the rows and the loads of a load case of feti at @p positions. Only
-   * subdomains whose nodes moved since the last call are assembled and factorized.
-   * Collective. @return the geometry, valid until the next call.
+   * Make @p positions the present geometry, and a load case one of its loaded problems. Only
+   * subdomains whose nodes moved since the last call are assembled and factorized. Collective.
    * @throws TangledMesh; SolveError where held displacements press bodies into another.
    */
-  const Geometry<dim> &set(const Field &positions, unsigned int load_case);
+  void set(const Field &positions, unsigned int load_case);
+
+  /// Return the present geometry, valid until the next call of set() or pair().
+  const Geometry<dim> &geometry() const { return present; }
+
+  /// Return the dual problem of a load case at the present geometry, valid as geometry(). set()
+  /// must have been called for the load case at @p positions. @throws ExcMessage on a rank whose
+  /// subdomains are at other positions, which is an error of the caller.
+  const feti::LoadedProblem &loaded(const Field &positions, unsigned int load_case) const;
 
   /// Return the data of the rows of B at @p positions. Collective.
   RowCoefficients<dim> rows(const Field &positions) const;
@@ -65,24 +72,29 @@ public:
   std::unique_ptr<Gluing<dim>>                         gluing;
   std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
   std::vector<feti::SubdomainSystem>                   systems;
-  std::unique_ptr<feti::TotalFeti>                     feti;
+  feti::FactorCache                                    factor_cache;
+  std::unique_ptr<const feti::Operators>               operators; ///< of the pairing
 
 private:
   void                glue(const Field &positions);
+  void                forget();
   std::vector<bool>   moved_subdomains(const Field &positions) const;
   std::vector<double> checked_jacobians(const Field &positions, const std::vector<bool> &moved);
   void                assemble(const Field &positions, const std::vector<bool> &moved);
-  void                set_geometry(const Field &positions);
+  void                linearize(const Field &positions);
   void                check_vanished_rows(unsigned int load_case) const;
 
   std::vector<BodyBox<dim>> boxes;
   std::vector<double>       scaled_jacobians; ///< minimum per subdomain
-  /// geometry of the matrices in systems and feti; empty positions: none
-  Geometry<dim>               geometry;
-  Field                       paired_at;   ///< positions of the last pairing
-  std::optional<unsigned int> loaded_case; ///< load case of the loads in feti
-  /// f per load case and subdomain
-  std::vector<std::vector<std::vector<double>>> loads;
+  Field                     paired_at;        ///< positions of the last pairing
+  feti::ContactPairs        pairs_of_rows;
+  /// soft modes of the pairing; null: not sought yet
+  std::shared_ptr<const feti::DeflationStructure> soft_modes;
+  Geometry<dim>                                   present; ///< empty positions: none
+  std::vector<feti::PrimalVectors>                loads;   ///< f of each load case
+  std::unique_ptr<const feti::Linearization>      linearization;
+  /// by load case; null: not set at this geometry
+  std::vector<std::unique_ptr<const feti::LoadedProblem>> loaded_problems;
 };
 } // namespace snug::state
 

@@ -38,16 +38,17 @@ public:
   double tolerance() const { return relative_tolerance; }
   void   set_tolerance(double tolerance) { relative_tolerance = tolerance; }
 
-  /// Continue the solution of @p state from its contact forces until its certificate meets
-  /// @p tolerance. Collective. @throws SolveError.
+  /// Continue the solution of @p state, for which feti() must be valid, from its contact forces
+  /// until its certificate meets @p tolerance. Collective. @throws SolveError.
   ContactState<dim> solve_on(const ContactState<dim> &state, double tolerance) const;
 
-  /**
-   * Return the dual problem of @p state, which must belong to the last contact search. Its matrices
-   * and loads are computed again if the solver has been at another geometry or load case since. The
-   * result is valid until the solver goes to another geometry or load case. Collective.
-   */
-  const feti::TotalFeti &feti(const ContactState<dim> &state) const;
+  /// Return the dual problem of @p state, which must be at the geometry of the last call of solve()
+  /// or restore(). The result is valid until the solver goes to another geometry.
+  const feti::LoadedProblem &feti(const ContactState<dim> &state) const;
+
+  /// Go back to the geometry of @p state, which must belong to the present pairing. Its matrices
+  /// and loads are computed again if the solver has been at another geometry since. Collective.
+  void restore(const ContactState<dim> &state);
 
   /// Return the F-mults of one linear TFETI solve on the active set of @p state, from zero at the
   /// same tolerance. Collective.
@@ -74,17 +75,16 @@ public:
   }
   const Gluing<dim> &gluing() const { return *problem->gluing; }
   /// Return the number of rigid body modes of all subdomains.
-  unsigned int n_kernel() const { return problem->feti->n_kernel(); }
+  unsigned int n_kernel() const { return problem->operators->coarse.table.n_kernel(); }
   RunContext  &context() const { return problem->context; }
 
 private:
-  ContactState<dim> solve(const Field         &positions,
-                          const qp::WarmStart &start,
-                          unsigned int         load_case,
-                          double               tolerance) const;
+  ContactState<dim> solve_present(const Field         &positions,
+                                  const qp::WarmStart &start,
+                                  unsigned int         load_case,
+                                  double               tolerance) const;
   void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
 
-  /// matrices of the last positions, which const members compute again when necessary
   std::unique_ptr<StateProblem<dim>> problem;
   unsigned int                       n_pairings = 0;
   double                             relative_tolerance;

@@ -79,8 +79,8 @@ int main(int argc, char **argv)
       return 2;
     }
   const auto n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  const auto team =
-    n_ranks > 1 ? std::make_shared<const feti::Team>(MPI_COMM_WORLD, n_ranks) : nullptr;
+  const auto group =
+    n_ranks > 1 ? std::make_shared<const feti::CoarseGroup>(MPI_COMM_WORLD, n_ranks) : nullptr;
   const bool prints  = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   const auto repeats = narrow<unsigned int>(std::strtoul(argv[1], nullptr, 10));
   if (prints)
@@ -90,8 +90,8 @@ int main(int argc, char **argv)
       const auto         n      = narrow<unsigned int>(std::strtoul(argv[i], nullptr, 10));
       const auto         matrix = coarse_matrix(n);
       const double       before = megabytes();
-      feti::SparseFactor factor(matrix, feti::FactorOf::coarse, feti::Factorization::CHOLMOD,
-                                nullptr, team);
+      feti::SparseFactor factor(matrix, feti::MatrixKind::coarse, feti::Factorization::CHOLMOD,
+                                nullptr, group);
       const double    factorization = seconds(repeats, [&]() { factor.factorize(matrix, "G G'"); });
       const double    held          = megabytes() - before;
       qp::MultiVector b(matrix.n_rows()), x(matrix.n_rows());

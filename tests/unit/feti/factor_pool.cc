@@ -38,7 +38,7 @@ protected:
   ~FactorPool() override { PetscPopErrorHandler(); }
 
   Work             work;
-  feti::FactorPool pool{feti::FactorOf::coarse, feti::Factorization::CHOLMOD, nullptr, &work};
+  feti::FactorPool pool{feti::MatrixKind::coarse, feti::Factorization::CHOLMOD, nullptr, &work};
 };
 
 TEST_F(FactorPool, EqualMatricesShareAFactor)
@@ -85,7 +85,7 @@ TEST_F(FactorPool, FactorsOutliveThePool)
 {
   std::shared_ptr<const feti::SparseFactor> factor;
   {
-    const feti::FactorPool brief(feti::FactorOf::coarse);
+    const feti::FactorPool brief(feti::MatrixKind::coarse);
     factor = brief.factorize(chain(5, 3.), "A");
   }
   EXPECT_EQ(first_entry(*factor, 5), first_entry(*pool.factorize(chain(5, 3.), "A"), 5));

@@ -97,8 +97,8 @@ TEST(FillOrderings, LeaveTheInverseAsItIs)
 {
   const auto          A = laplacian(20, true);
   feti::FillOrderings orderings;
-  feti::SparseFactor  ordered(A, feti::FactorOf::kplus, feti::Factorization::CHOLMOD, &orderings),
-    other(A, feti::FactorOf::coarse, feti::Factorization::CHOLMOD);
+  feti::SparseFactor  ordered(A, feti::MatrixKind::kplus, feti::Factorization::CHOLMOD, &orderings),
+    other(A, feti::MatrixKind::coarse, feti::Factorization::CHOLMOD);
   qp::MultiVector b(A.n_rows()), x(A.n_rows()), y(A.n_rows());
   for (unsigned int i = 0; i < A.n_rows(); ++i)
     b(i) = 1. + i % 5;

@@ -49,7 +49,7 @@ protected:
   std::ostringstream  log;
   RunContext          context{MPI_COMM_WORLD, log};
   feti::FillOrderings orderings;
-  feti::FactorPool    factors{feti::FactorOf::kplus, GetParam(), &orderings, &context.work};
+  feti::FactorPool    factors{feti::MatrixKind::kplus, GetParam(), &orderings, &context.work};
 };
 
 TEST_P(Packages, InvertsOnTheRange)
@@ -58,11 +58,10 @@ TEST_P(Packages, InvertsOnTheRange)
     {
       // the kernel is what the geometry says
       EXPECT_LT(largest(times(system.K, system.R)), 1e-12);
-      feti::GeneralizedInverse inverse(system, factors, context);
-      inverse.factorize("test");
-      const auto      x  = random_columns(system.n_dofs(), 3);
-      const auto      Kx = times(system.K, x);
-      qp::MultiVector y(system.n_dofs(), 3);
+      const feti::GeneralizedInverse inverse(system, factors, context, "test");
+      const auto                     x  = random_columns(system.n_dofs(), 3);
+      const auto                     Kx = times(system.K, x);
+      qp::MultiVector                y(system.n_dofs(), 3);
       inverse.apply(Kx, y);
       auto error = times(system.K, y);
       error.add(-1., Kx);
@@ -74,19 +73,19 @@ TEST_P(Packages, InvertsOnTheRange)
 
 TEST_P(Packages, FollowsNewNumbers)
 {
-  auto                     system = examples()[0];
-  feti::GeneralizedInverse inverse(system, factors, context);
-  inverse.factorize("test");
+  auto system = examples()[0];
+  feti::GeneralizedInverse(system, factors, context, "test");
   for (double &value : system.K.values)
     value *= 7.;
-  inverse.factorize("test");
-  const auto      x  = random_columns(system.n_dofs(), 1);
-  const auto      Kx = times(system.K, x);
-  qp::MultiVector y(system.n_dofs());
+  const feti::GeneralizedInverse inverse(system, factors, context, "test");
+  const auto                     x  = random_columns(system.n_dofs(), 1);
+  const auto                     Kx = times(system.K, x);
+  qp::MultiVector                y(system.n_dofs());
   inverse.apply(Kx, y);
   auto error = times(system.K, y);
   error.add(-1., Kx);
   EXPECT_LT(largest(error), 1e-12 * largest(Kx));
+  EXPECT_EQ(context.work.symbolic_factorizations, 1u);
 }
 
 /// Subdomains of a grid have the same K, and matrices R that differ by rounding.
@@ -97,19 +96,19 @@ TEST_P(Packages, CongruentSubdomainsShareTheirInverse)
   for (unsigned int mode = 0; mode < other.R.n_columns(); ++mode)
     for (unsigned int i = 0; i < other.n_dofs(); ++i)
       other.R(i, mode) *= 1. + 1e-15 * (i % 3);
-  feti::GeneralizedInverse first(system, factors, context), second(other, factors, context);
-  first.factorize("test");
-  second.factorize("test");
+  auto first  = std::make_unique<feti::GeneralizedInverse>(system, factors, context, "test");
+  auto second = std::make_unique<feti::GeneralizedInverse>(other, factors, context, "test");
   EXPECT_EQ(context.work.numeric_factorizations, 1u);
   const auto      Kx = times(system.K, random_columns(system.n_dofs(), 1));
   qp::MultiVector y(system.n_dofs()), z(system.n_dofs());
   // also where one of them is gone
-  first.apply(Kx, y);
+  first->apply(Kx, y);
   other.K.values[0] *= 1. + 1e-15;
-  first.release();
-  second.apply(Kx, z);
+  first.reset();
+  second->apply(Kx, z);
   EXPECT_EQ(largest(y), largest(z));
-  second.factorize("test");
+  second.reset();
+  second = std::make_unique<feti::GeneralizedInverse>(other, factors, context, "test");
   EXPECT_EQ(context.work.numeric_factorizations, 2u);
   EXPECT_EQ(context.work.symbolic_factorizations, 1u);
 }
@@ -121,22 +120,21 @@ INSTANTIATE_TEST_SUITE_P(GeneralizedInverse,
 
 TEST(LocalSchur, IsTheSchurComplement)
 {
-  auto system = examples()[0];
+  const auto                system = examples()[0];
+  std::vector<feti::BEntry> B;
   // rows at the nodes with x = 0, and one inside
   for (unsigned int dof = 0; dof < system.n_dofs(); ++dof)
     if (dof % 10 < 2 || dof == 15)
-      system.B.push_back({0, dof, 1.});
-  std::ostringstream     log;
-  RunContext             context(MPI_COMM_WORLD, log);
-  feti::SharedPatterns   patterns;
-  const feti::FactorPool factors(feti::FactorOf::dirichlet);
+      B.push_back({0, dof, 1.});
+  std::ostringstream      log;
+  RunContext              context(MPI_COMM_WORLD, log);
+  const feti::FactorCache cache(feti::Factorization::CHOLMOD, context);
   for (const bool lumped : {false, true})
     {
-      feti::LocalSchur schur(system, lumped, factors, patterns, context);
-      schur.factorize("test");
-      const auto &position = schur.boundary_position();
-      const auto  x        = random_columns(schur.n_boundary(), 2);
-      const auto  y        = schur.apply(x);
+      const feti::LocalSchur schur(system, B, lumped, cache, "test");
+      const auto            &position = schur.boundary_position();
+      const auto             x        = random_columns(schur.n_boundary(), 2);
+      const auto             y        = schur.apply(x);
       // energy of the best extension of x: K at the boundary rows of the u
       // whose other rows vanish
       qp::MultiVector inner(system.n_dofs(), 2);
@@ -168,19 +166,18 @@ TEST(LocalSchur, IsTheSchurComplement)
 /// Many rows along one axis leave a body free to move along the others.
 TEST(LocalSchur, HoldsWhereRowsLeaveRigidMotions)
 {
-  std::ostringstream     log;
-  RunContext             context(MPI_COMM_WORLD, log);
-  feti::SharedPatterns   patterns;
-  const feti::FactorPool factors(feti::FactorOf::dirichlet);
-  for (auto &system : examples())
+  std::ostringstream      log;
+  RunContext              context(MPI_COMM_WORLD, log);
+  const feti::FactorCache cache(feti::Factorization::CHOLMOD, context);
+  for (const auto &system : examples())
     {
-      const unsigned int dim = system.R.n_columns() == 3 ? 2 : 3;
+      std::vector<feti::BEntry> B;
+      const unsigned int        dim = system.R.n_columns() == 3 ? 2 : 3;
       for (unsigned int dof = dim - 1; dof < system.n_dofs(); dof += dim)
         if (dof < system.n_dofs() / 2)
-          system.B.push_back({0, dof, 1.});
-      feti::LocalSchur schur(system, false, factors, patterns, context);
-      EXPECT_NO_THROW(schur.factorize("the body"));
-      EXPECT_GT(schur.n_boundary(), system.B.size());
+          B.push_back({0, dof, 1.});
+      const feti::LocalSchur schur(system, B, false, cache, "the body");
+      EXPECT_GT(schur.n_boundary(), B.size());
     }
 }
 } // namespace

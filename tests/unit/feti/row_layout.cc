@@ -111,7 +111,8 @@ TEST(RowLayout, GathersEntriesInOrder)
             EXPECT_EQ(gathered[3 * place], row);
             EXPECT_EQ(gathered[3 * place + 1], s);
             EXPECT_EQ(gathered[3 * place + 2], row + 10 * s);
-            EXPECT_EQ(unknowns[place], std::make_pair(s, row + 10 * s));
+            EXPECT_EQ(unknowns[place].subdomain, s);
+            EXPECT_EQ(unknowns[place].dof, row + 10 * s);
             ++place;
           }
     }

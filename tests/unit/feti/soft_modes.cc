@@ -43,22 +43,23 @@ protected:
   SoftModes()
   {
     feti::FetiParameters parameters;
-    problem            = truss.make(parameters);
-    const auto &layout = truss.row_layout();
-    gram               = std::make_unique<feti::RowGram>(layout);
+    problem                     = truss.make(parameters);
+    const auto         &layout  = truss.row_layout();
+    const auto         &systems = problem->linearization().subdomains();
     std::vector<double> values;
-    for (const auto &system : problem->subdomains())
-      for (const auto &entry : system.B)
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      for (const auto &entry : problem->linearization().B()[s])
         {
           values.push_back(entry.value);
-          values.push_back(1. / system.K.diagonal(entry.dof));
+          values.push_back(1. / systems[s].K.diagonal(entry.dof));
         }
-    const auto entries = layout.gather_entries(2, values);
-    gram->update(entries, 2);
-    unsigned int mine = problem->subdomains().size();
+    const auto                   entries = layout.gather_entries(2, values);
+    const feti::RowGramStructure structure(layout);
+    const feti::RowGram          gram(structure, entries, 2);
+    unsigned int                 mine = systems.size();
     MPI_Scan(&mine, &first, 1, MPI_UNSIGNED, MPI_SUM, MPI_COMM_WORLD);
     first -= mine;
-    columns = feti::jump_columns(layout, *gram, entries, 2, first, mine);
+    columns = feti::jump_operator(layout, gram, entries, 2, first, mine);
   }
 
   /// P_D on the unknowns of block t and those of block s.
@@ -71,27 +72,27 @@ protected:
     return P;
   }
 
-  TornTruss                        truss{GetParam().first, GetParam().second, 0., 0.2};
-  DenseJumps                       dense{truss};
-  std::unique_ptr<feti::TotalFeti> problem;
-  std::unique_ptr<feti::RowGram>   gram;
-  unsigned int                     first = 0;
-  std::vector<feti::JumpColumns>   columns;
+  TornTruss                            truss{GetParam().first, GetParam().second, 0., 0.2};
+  DenseJumps                           dense{truss};
+  std::unique_ptr<feti::LoadedProblem> problem;
+  unsigned int                         first = 0;
+  std::vector<feti::JumpColumns>       columns;
 };
 
 TEST_P(SoftModes, ColumnsOfTheJumpOperator)
 {
   for (unsigned int s = 0; s < columns.size(); ++s)
     {
-      Matrix B_D(truss.n_rows(), problem->subdomains()[s].n_dofs());
+      Matrix B_D(truss.n_rows(), problem->linearization().subdomains()[s].n_dofs());
       Matrix P(truss.K.m(), B_D.n());
-      for (unsigned int i = 0; i < columns[s].dofs.size(); ++i)
+      for (unsigned int i = 0; i < columns[s].size(); ++i)
         {
-          EXPECT_TRUE(i == 0 || columns[s].dofs[i - 1] < columns[s].dofs[i]);
-          for (const auto &force : columns[s].forces[i])
-            B_D(force.row, columns[s].dofs[i]) += force.value;
-          for (const auto &copy : columns[s].copies[i])
-            P(truss.start[copy.subdomain] + copy.dof, columns[s].dofs[i]) += copy.value;
+          const auto &column = columns[s][i];
+          EXPECT_TRUE(i == 0 || columns[s][i - 1].dof < column.dof);
+          for (const auto &force : column.forces)
+            B_D(force.row, column.dof) += force.value;
+          for (const auto &copy : column.copies)
+            P(truss.start[copy.subdomain] + copy.dof, column.dof) += copy.value;
         }
       for (unsigned int j = 0; j < B_D.n(); ++j)
         {
@@ -105,11 +106,11 @@ TEST_P(SoftModes, ColumnsOfTheJumpOperator)
 
 TEST_P(SoftModes, StiffnessOfNeighbours)
 {
-  const auto found =
-    feti::stiffness_of_neighbours(problem->subdomains(), columns, first, MPI_COMM_WORLD);
+  const auto found = feti::stiffness_of_neighbours(problem->linearization().subdomains(), columns,
+                                                   first, MPI_COMM_WORLD);
   for (unsigned int s = 0; s < columns.size(); ++s)
     {
-      const unsigned int n = problem->subdomains()[s].n_dofs();
+      const unsigned int n = problem->linearization().subdomains()[s].n_dofs();
       Matrix             expected(n, n), sum(n, n);
       for (unsigned int t = 0; t < truss.blocks.size(); ++t)
         if (t != first + s)
@@ -152,12 +153,12 @@ std::vector<double> eigenvalues(const Matrix &A, const Matrix &K, const qp::Mult
 }
 
 /// S of all unknowns with an entry in B; zero at the others.
-Matrix dense_schur(const feti::SubdomainSystem &system, const Matrix &K)
+Matrix dense_schur(const std::vector<feti::BEntry> &B, const Matrix &K)
 {
   const unsigned int        n = K.m();
   std::vector<bool>         on_boundary(n, false);
   std::vector<unsigned int> inner;
-  for (const auto &entry : system.B)
+  for (const auto &entry : B)
     on_boundary[entry.dof] = true;
   for (unsigned int i = 0; i < n; ++i)
     if (!on_boundary[i])
@@ -179,25 +180,23 @@ Matrix dense_schur(const feti::SubdomainSystem &system, const Matrix &K)
 
 TEST_P(SoftModes, AreTheEigenvectorsOfTheJumps)
 {
-  RunContext             context(MPI_COMM_SELF, std::cout);
-  feti::SharedPatterns   patterns;
-  const feti::FactorPool factors(feti::FactorOf::kplus), inner(feti::FactorOf::dirichlet);
-  const auto             neighbours =
-    feti::stiffness_of_neighbours(problem->subdomains(), columns, first, MPI_COMM_WORLD);
-  unsigned int n_modes = 0;
+  RunContext              context(MPI_COMM_SELF, std::cout);
+  const feti::FactorCache cache(feti::Factorization::CHOLMOD, context);
+  const auto             &linearization = problem->linearization();
+  const auto   neighbours = feti::stiffness_of_neighbours(problem->linearization().subdomains(),
+                                                          columns, first, MPI_COMM_WORLD);
+  unsigned int n_modes    = 0;
   for (unsigned int s = 0; s < columns.size(); ++s)
     {
-      const auto              &system = problem->subdomains()[s];
-      feti::GeneralizedInverse inverse(system, factors, context);
-      feti::LocalSchur         schur(system, false, inner, patterns, context);
-      inverse.factorize("K");
-      schur.factorize("K_ii");
-      const auto modes =
-        feti::soft_modes(system, inverse, schur, columns[s], neighbours[s], first + s);
+      const auto &system = problem->linearization().subdomains()[s];
+      const auto &B      = linearization.B()[s];
+      const auto  modes  = feti::soft_modes(
+        system, feti::SubdomainFactors(system, B, feti::Preconditioner::Dirichlet, cache, "K"),
+        columns[s], neighbours[s], first + s);
 
       const Matrix K = dense_stiffness(truss.blocks[first + s]),
                    P = block_of_P(first + s, first + s);
-      Matrix A       = product(transposed(P), product(dense_schur(system, K), P));
+      Matrix A       = product(transposed(P), product(dense_schur(B, K), P));
       for (const auto &entry : neighbours[s])
         A(entry.i, entry.j) += entry.value;
       const auto expected = eigenvalues(A, K, system.R);
@@ -249,10 +248,10 @@ protected:
     return qp::inner_products(x, problem->apply(x), MPI_COMM_WORLD);
   }
 
-  TornTruss                        truss{GetParam().first, GetParam().second, 0., 0.2};
-  qp::RowSet                       mask;
-  std::unique_ptr<feti::TotalFeti> problem;
-  std::unique_ptr<qp::FreeSet>     free_set;
+  TornTruss                            truss{GetParam().first, GetParam().second, 0., 0.2};
+  qp::RowSet                           mask;
+  std::unique_ptr<feti::LoadedProblem> problem;
+  std::unique_ptr<qp::FreeSet>         free_set;
 };
 
 TEST_P(Deflation, IsTheFOrthogonalProjector)

@@ -85,7 +85,7 @@ TEST_P(Factors, SingularMatricesAreErrors)
   std::fill(zero.values.begin(), zero.values.end(), 0.);
   for (const auto *matrix : {&floating, &loose, &zero})
     {
-      feti::SparseFactor factor(*matrix, feti::FactorOf::kplus, GetParam());
+      feti::SparseFactor factor(*matrix, feti::MatrixKind::kplus, GetParam());
       expect_clear(failure_reason(factor, *matrix));
       if (matrix == &loose)
         {
@@ -99,7 +99,7 @@ TEST_P(Factors, IndefiniteMatricesAndNaNAreErrorsAndLeaveAFactorThatWorks)
 {
   auto               K    = truss_on_springs();
   const auto         good = K.values;
-  feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
+  feti::SparseFactor factor(K, feti::MatrixKind::kplus, GetParam());
   // an off-diagonal entry and its mirror image
   const unsigned int other = K.columns()[K.row_start()[3]] == 3 ? K.columns()[K.row_start()[3] + 1]
                                                                 : K.columns()[K.row_start()[3]];
@@ -154,9 +154,9 @@ TEST(TeamFactors, InvertOnAllRanks)
   not_a_number.values[not_a_number.position(7, 7)] = nan;
   for (int members = 1; members <= size; ++members)
     {
-      const auto         team = std::make_shared<const feti::Team>(MPI_COMM_WORLD, members);
-      feti::SparseFactor factor(good, feti::FactorOf::coarse, feti::Factorization::CHOLMOD, nullptr,
-                                team);
+      const auto         group = std::make_shared<const feti::CoarseGroup>(MPI_COMM_WORLD, members);
+      feti::SparseFactor factor(good, feti::MatrixKind::coarse, feti::Factorization::CHOLMOD,
+                                nullptr, group);
       for (const auto *bad : {&loose, &not_a_number})
         {
           expect_clear(failure_reason(factor, *bad));
@@ -172,8 +172,8 @@ TEST(TeamFactors, AreMadeWhereTheyAreFaster)
   int size;
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   const auto members = [](const unsigned int n_rows, const unsigned int wanted) {
-    const auto team = feti::coarse_team(MPI_COMM_WORLD, n_rows, feti::FactorOf::coarse, wanted);
-    return team ? team->size() : 1;
+    const auto group = feti::coarse_group(MPI_COMM_WORLD, n_rows, feti::MatrixKind::coarse, wanted);
+    return group ? group->size() : 1;
   };
   EXPECT_EQ(members(1000, 0), 1);
   EXPECT_EQ(members(1000000, 0), size < 4 ? 1 : size);
@@ -191,7 +191,7 @@ TEST_P(Factors, UnitsAreNoErrors)
     {
       for (std::size_t p = 0; p < good.size(); ++p)
         K.values[p] = unit * good[p];
-      feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
+      feti::SparseFactor factor(K, feti::MatrixKind::kplus, GetParam());
       ASSERT_EQ(failure_reason(factor, K), "") << unit;
       expect_inverse(K, factor);
     }
@@ -200,7 +200,7 @@ TEST_P(Factors, UnitsAreNoErrors)
 TEST_P(Factors, AnEmptyMatrixHasAnEmptyInverse)
 {
   const auto         empty = feti::CsrMatrix::from_rows({}, 0);
-  feti::SparseFactor factor(empty, feti::FactorOf::kplus, GetParam());
+  feti::SparseFactor factor(empty, feti::MatrixKind::kplus, GetParam());
   EXPECT_EQ(failure_reason(factor, empty), "");
   expect_inverse(empty, factor);
 }
@@ -222,16 +222,17 @@ TEST_P(Factors, PetscOptionsOfAPrefixChooseThePackage)
         SCOPED_TRACE(package + " " + kind);
         if (package == (kind == "lu" ? "cholmod" : "superlu")) // which PETSc lacks
           {
-            EXPECT_THROW(feti::SparseFactor(K, feti::FactorOf::dirichlet, GetParam()), InputError);
+            EXPECT_THROW(feti::SparseFactor(K, feti::MatrixKind::dirichlet, GetParam()),
+                         InputError);
             EXPECT_THROW(feti::check_factor_options(GetParam()), InputError);
             continue;
           }
         EXPECT_NO_THROW(feti::check_factor_options(GetParam()));
-        feti::SparseFactor factor(K, feti::FactorOf::dirichlet, GetParam());
+        feti::SparseFactor factor(K, feti::MatrixKind::dirichlet, GetParam());
         ASSERT_EQ(failure_reason(factor, K), "");
         expect_inverse(K, factor);
         // those of another matrix do not hold
-        feti::SparseFactor other(K, feti::FactorOf::kplus, GetParam());
+        feti::SparseFactor other(K, feti::MatrixKind::kplus, GetParam());
         ASSERT_EQ(failure_reason(other, K), "");
         expect_inverse(K, other);
       }
@@ -245,7 +246,7 @@ TEST_P(Factors, PetscOptionsNobodyAskedForAreKnown)
     methods("-kplus_mat_cholmod_nmethods", "2"), fill("-kplus_mat_mumps_icntl_7", "0"),
     misspelt("-kplus_pc_factor_solver", "mumps"), flag("-k_plus", "");
   const auto         K = truss_on_springs();
-  feti::SparseFactor factor(K, feti::FactorOf::kplus, GetParam());
+  feti::SparseFactor factor(K, feti::MatrixKind::kplus, GetParam());
   ASSERT_EQ(failure_reason(factor, K), "");
   expect_inverse(K, factor);
   EXPECT_FALSE(is_unused("-kplus_pc_factor_mat_ordering_type rcm"));

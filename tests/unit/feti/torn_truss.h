@@ -1,7 +1,7 @@
 #ifndef snug_tests_unit_feti_torn_truss_h
 #define snug_tests_unit_feti_torn_truss_h
 
-#include <snug/feti/total_feti.h>
+#include <snug/feti/loaded_problem.h>
 
 #include <unit/feti/truss_block.h>
 
@@ -23,7 +23,7 @@ public:
   TornTruss(bool floating, bool node_to_segment, double slope = 0., double height = 1.);
 
   /// Total FETI of this rank's blocks.
-  std::unique_ptr<feti::TotalFeti> make(const feti::FetiParameters &parameters);
+  std::unique_ptr<feti::LoadedProblem> make(const feti::FetiParameters &parameters);
 
   /// Return the row layout that make() has made.
   const feti::RowLayout &row_layout() const { return *layout; }
@@ -51,13 +51,17 @@ private:
     std::vector<std::pair<unsigned int, double>> entries; ///< unknowns
   };
 
-  int                                rank, n_ranks;
-  std::vector<Row>                   rows;      ///< by owner
-  std::vector<unsigned int>          first_row; ///< of ranks
-  std::unique_ptr<feti::RowLayout>   layout;
-  std::vector<feti::SubdomainSystem> mine;
-  std::unique_ptr<RunContext>        context;
-  std::ostringstream                 log;
+  int                                  rank, n_ranks;
+  std::vector<Row>                     rows;      ///< by owner
+  std::vector<unsigned int>            first_row; ///< of ranks
+  std::unique_ptr<feti::RowLayout>     layout;
+  std::vector<feti::SubdomainSystem>   mine;
+  feti::PrimalVectors                  loads;
+  std::unique_ptr<RunContext>          context;
+  std::unique_ptr<feti::FactorCache>   cache;
+  std::unique_ptr<feti::Operators>     operators;
+  std::unique_ptr<feti::Linearization> linearization;
+  std::ostringstream                   log;
 
   unsigned int rank_of_block(unsigned int s) const { return s * n_ranks / blocks.size(); }
   std::vector<unsigned int> copies(unsigned int body, const Node &node, unsigned int d) const;
@@ -189,14 +193,19 @@ inline void TornTruss::fill_dense()
     }
 }
 
-inline std::unique_ptr<feti::TotalFeti> TornTruss::make(const feti::FetiParameters &parameters)
+inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiParameters &parameters)
 {
   feti::SubdomainTable table;
   table.n_modes    = 3;
   table.body_names = {"foundation", "punch"};
   std::vector<std::vector<feti::RowLayout::Entry>> entries;
   std::vector<unsigned int>                        ids;
+  linearization.reset();
+  operators.reset();
+  cache.reset();
   mine.clear();
+  loads.clear();
+  feti::ConstraintRows rows_of_B;
   for (unsigned int s = 0; s < blocks.size(); ++s)
     {
       table.body.push_back(blocks[s].body);
@@ -204,6 +213,8 @@ inline std::unique_ptr<feti::TotalFeti> TornTruss::make(const feti::FetiParamete
         continue;
       ids.push_back(s);
       mine.push_back(systems[s]);
+      loads.push_back(truss_loads(blocks[s], 2));
+      rows_of_B.emplace_back();
       entries.emplace_back();
       for (unsigned int i = 0; i < n_rows(); ++i)
         for (unsigned int j = start[s]; j < start[s + 1]; ++j)
@@ -214,18 +225,18 @@ inline std::unique_ptr<feti::TotalFeti> TornTruss::make(const feti::FetiParamete
   layout = std::make_unique<feti::RowLayout>(MPI_COMM_WORLD, owned(bounded), entries, table.first);
   for (unsigned int k = 0; k < mine.size(); ++k)
     for (const auto &entry : entries[k])
-      mine[k].B.push_back({layout->local_row(entry.global_row), entry.dof,
-                           B(entry.global_row, start[ids[k]] + entry.dof)});
+      rows_of_B[k].push_back({layout->local_row(entry.global_row), entry.dof,
+                              B(entry.global_row, start[ids[k]] + entry.dof)});
   context   = std::make_unique<RunContext>(MPI_COMM_WORLD, log);
-  auto feti = std::make_unique<feti::TotalFeti>(mine, *layout, table, parameters, *context);
+  cache     = std::make_unique<feti::FactorCache>(parameters.factorization, *context);
+  operators = std::make_unique<feti::Operators>(*layout, table, parameters, *cache);
   qp::MultiVector gap(layout->n_owned());
   for (unsigned int i = 0; i < gap.n_rows(); ++i)
     gap(i) = layout->bounded()[i] ? 0.01 : 0.;
-  feti->update(std::vector<bool>(mine.size(), true));
-  if (parameters.soft_modes == feti::SoftModesOf::all)
-    feti->find_soft_modes();
-  feti->set_loads(gap);
-  return feti;
+  linearization =
+    std::make_unique<feti::Linearization>(*operators, mine, std::move(rows_of_B),
+                                          feti::FactorsOfSubdomains(mine.size()), nullptr);
+  return std::make_unique<feti::LoadedProblem>(*linearization, loads, gap);
 }
 
 inline qp::MultiVector TornTruss::owned(const qp::MultiVector &all) const

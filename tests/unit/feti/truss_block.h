@@ -163,10 +163,6 @@ inline feti::SubdomainSystem truss_system(const Block               &block,
   for (unsigned int i = 0; i < K.m(); ++i)
     for (const PetscInt j : columns[i])
       system.K.values[system.K.position(i, j)] = K(i, j);
-  system.f.assign(K.m(), 0.);
-  for (unsigned int a = 0; a < block.nodes.size(); ++a)
-    if (block.body == 1)
-      system.f[dim * a + dim - 1] = -1. - 0.1 * (a % 3);
   system.R = rigid_motions(block, block.position(block.nodes[0]));
   orthonormalise(system.R);
   system.Z = qp::transpose_times(system.R, rigid_motions(block, centre_of_body));
@@ -184,6 +180,16 @@ inline feti::SubdomainSystem truss_system(const Block               &block,
     for (unsigned int d = 0; d < dim; ++d)
       system.fixing_dofs.push_back(dim * corner + d);
   return system;
+}
+
+/// Loads of the punch.
+inline qp::MultiVector truss_loads(const Block &block, const unsigned int dim)
+{
+  qp::MultiVector f(dim * block.nodes.size());
+  for (unsigned int a = 0; a < block.nodes.size(); ++a)
+    if (block.body == 1)
+      f(dim * a + dim - 1) = -1. - 0.1 * (a % 3);
+  return f;
 }
 } // namespace snug::test
 

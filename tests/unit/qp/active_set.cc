@@ -16,7 +16,7 @@ namespace {
 unsigned long linear_f_mults(const DenseProblem &problem, const RowSet &active, double tolerance)
 {
   MultiVector  none(problem.n_owned(), 0);
-  const double scale    = equality_part(problem, problem.expected_rows(), none).scale;
+  const double scale    = equality_part(problem, problem.initial_active_set(), none).scale;
   const auto   free_set = problem.free_set(active);
   const auto   before   = problem.context().work.f_mults;
   MultiVector  lambda(problem.n_owned());

@@ -14,7 +14,7 @@ namespace {
 KktResidual kkt_at(const DenseProblem &problem, const dense::Matrix &lambda)
 {
   MultiVector none(problem.n_owned(), 0);
-  const auto  equality = equality_part(problem, problem.expected_rows(), none);
+  const auto  equality = equality_part(problem, problem.initial_active_set(), none);
   RowSet      rows     = problem.data.bounded;
   for (unsigned int i = 0; i < rows.size(); ++i)
     rows[i] = !rows[i] || lambda(i) != 0.;
@@ -93,8 +93,8 @@ TEST(KktResidual, DoesNotDependOnTheGeneralizedInverse)
   other.d.add(1., dense::product(GtC, other.e));
   const DenseProblem one(known.data), two(other);
   MultiVector        none(one.n_owned(), 0);
-  EXPECT_NEAR(equality_part(one, one.expected_rows(), none).scale,
-              equality_part(two, two.expected_rows(), none).scale, 1e-11);
+  EXPECT_NEAR(equality_part(one, one.initial_active_set(), none).scale,
+              equality_part(two, two.initial_active_set(), none).scale, 1e-11);
 }
 
 TEST(EqualityPart, AppliesFToTheStartInTheSameBlock)
@@ -102,7 +102,7 @@ TEST(EqualityPart, AppliesFToTheStartInTheSameBlock)
   const auto         known = known_solution(KnownShape(), 5);
   const DenseProblem problem(known.data);
   MultiVector        x        = problem.slice(known.lambda);
-  const auto         equality = equality_part(problem, problem.expected_rows(), x);
+  const auto         equality = equality_part(problem, problem.initial_active_set(), x);
   EXPECT_EQ(problem.context().work.f_mults, 2u);
   auto residual = known.data.d;
   residual.add(-1., dense::product(known.data.F, known.lambda));
@@ -116,5 +116,5 @@ TEST(EqualityPart, RejectsDataThatAreNotFinite)
   data.d(3) = std::numeric_limits<double>::quiet_NaN();
   const DenseProblem problem(data);
   MultiVector        none(problem.n_owned(), 0);
-  EXPECT_THROW(equality_part(problem, problem.expected_rows(), none), snug::SolveError);
+  EXPECT_THROW(equality_part(problem, problem.initial_active_set(), none), snug::SolveError);
 }

@@ -195,7 +195,7 @@ TEST(Response, PositionGradients3D)
 }
 
 /// J of u + v, from K and f of the systems; -1 and 1/2 weights of both.
-double quadratic(const feti::TotalFeti     &feti,
+double quadratic(const feti::LoadedProblem &feti,
                  const feti::PrimalVectors &u,
                  double                     of_strain_energy,
                  double                     of_work)
@@ -203,11 +203,11 @@ double quadratic(const feti::TotalFeti     &feti,
   double value = 0.;
   for (unsigned int s = 0; s < u.size(); ++s)
     {
-      const auto     &system = feti.subdomains()[s];
+      const auto     &system = feti.linearization().subdomains()[s];
       qp::MultiVector Ku(u[s].n_rows());
       system.K.multiply_add(1., u[s], Ku);
       for (unsigned int i = 0; i < Ku.n_rows(); ++i)
-        value += u[s](i) * (of_strain_energy * Ku(i) / 2 + of_work * system.f[i]);
+        value += u[s](i) * (of_strain_energy * Ku(i) / 2 + of_work * feti.loads()[s](i));
     }
   return sum(value);
 }

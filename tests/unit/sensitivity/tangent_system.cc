@@ -36,15 +36,15 @@ void expect_optimal(const TestScene<dim> &scene, sensitivity::Solves solves)
                                           problem.model.solver, solves, state.dual.directions);
   const auto                       derivatives = system.solve(data);
 
-  auto residual = feti.multiply_Bt(derivatives.dual);
+  auto residual = feti.linearization().multiply_Bt(derivatives.dual);
   for (unsigned int s = 0; s < residual.size(); ++s)
     {
-      feti.subdomains()[s].K.multiply_add(1., derivatives.primal[s], residual[s]);
+      feti.linearization().subdomains()[s].K.multiply_add(1., derivatives.primal[s], residual[s]);
       residual[s].add(-1., data.primal[s]);
     }
   EXPECT_LT(largest(residual), 1e-8 * largest(data.primal));
 
-  auto gaps = feti.multiply_B(derivatives.primal);
+  auto gaps = feti.linearization().multiply_B(derivatives.primal);
   gaps.add(-1., data.dual);
   const auto &of_contact = problem.solver.gluing().contact_of_row();
   double      error      = 0.;

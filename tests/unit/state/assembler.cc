@@ -30,7 +30,7 @@ void check_rigid_modes(unsigned int degree)
 {
   Problem<dim> problem(loaded_scene<dim>(degree));
   const auto   state = problem.solve();
-  for (const auto &system : problem.solver.feti(state).subdomains())
+  for (const auto &system : problem.solver.feti(state).linearization().subdomains())
     {
       const unsigned int n_modes = dim == 2 ? 3 : 6;
       ASSERT_EQ(system.R.n_columns(), n_modes);
@@ -66,16 +66,16 @@ TEST(Assembler, BodyModesAreContinuous)
   Problem<3>          problem(loaded_scene<3>(1));
   const auto         &feti = problem.solver.feti(problem.solve());
   feti::PrimalVectors motion;
-  for (const auto &system : feti.subdomains())
+  for (const auto &system : feti.linearization().subdomains())
     {
       motion.emplace_back(system.n_dofs(), 6);
       motion.back().add_product(1., system.R, system.Z);
     }
-  const auto          B_motion = feti.multiply_B(motion);
+  const auto          B_motion = feti.linearization().multiply_B(motion);
   const auto         &layout   = problem.solver.gluing().layout();
   std::vector<double> values;
-  for (const auto &system : feti.subdomains())
-    for (const auto &entry : system.B)
+  for (const auto &B : feti.linearization().B())
+    for (const auto &entry : B)
       values.push_back(entry.value);
   values = layout.gather_entries(1, values);
   for (unsigned int i = 0; i < B_motion.n_rows(); ++i)
@@ -96,7 +96,7 @@ unsigned int count_compact(const TestScene<3> &scene)
 {
   Problem<3>   problem(scene, MPI_COMM_SELF);
   unsigned int n = 0;
-  for (const auto &system : problem.solver.feti(problem.solve()).subdomains())
+  for (const auto &system : problem.solver.feti(problem.solve()).linearization().subdomains())
     n += system.compact;
   return n;
 }
@@ -134,10 +134,11 @@ TEST(Assembler, LoadsHaveTheRightResultant)
   Problem<2>           problem(scene);
   const auto           state = problem.solve();
   dealii::Tensor<1, 2> sum;
-  for (const auto &system : problem.solver.feti(state).subdomains())
-    if (system.body == 0)
-      for (unsigned int i = 0; i < system.n_dofs(); ++i)
-        sum[i % 2] += system.f[i];
+  const auto          &feti = problem.solver.feti(state);
+  for (unsigned int s = 0; s < feti.loads().size(); ++s)
+    if (feti.linearization().subdomains()[s].body == 0)
+      for (unsigned int i = 0; i < feti.loads()[s].n_rows(); ++i)
+        sum[i % 2] += feti.loads()[s](i);
   for (unsigned int c = 0; c < 2; ++c)
     {
       double total = sum[c];

@@ -1,7 +1,7 @@
 #include "test_scene.h"
 
+#include <snug/feti/initial_active_set.h>
 #include <snug/qp/active_set.h>
-#include <snug/state/expected_contacts.h>
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ public:
   {
     return problem.free_set(free);
   }
-  qp::RowSet expected_rows() const override { return rows; }
+  qp::RowSet initial_active_set() const override { return rows; }
 
 private:
   const qp::DualProblem &problem;
@@ -63,7 +63,7 @@ void expect_near_contacts()
       test::Problem<dim> problem(pressed<dim>(pressure));
       const auto         state    = problem.solve();
       const auto        &feti     = problem.solver.feti(state);
-      const unsigned int expected = n_contacts(feti, feti.expected_rows());
+      const unsigned int expected = n_contacts(feti, feti.initial_active_set());
       EXPECT_GE(expected, state.active_contacts) << dim << "D, pressure " << pressure;
       EXPECT_LE(expected, 4 * state.active_contacts + 4) << dim << "D, pressure " << pressure;
     }
@@ -82,7 +82,8 @@ TEST(ExpectedContacts, DoNotDependOnTheUnitOfForce)
 {
   test::Problem<2> soft(pressed<2>(3.)), hard(pressed<2>(24., 8000.));
   const auto       of_soft = soft.solve(), of_hard = hard.solve();
-  EXPECT_EQ(soft.solver.feti(of_soft).expected_rows(), hard.solver.feti(of_hard).expected_rows());
+  EXPECT_EQ(soft.solver.feti(of_soft).initial_active_set(),
+            hard.solver.feti(of_hard).initial_active_set());
 }
 
 // It is a start: the solution is that of the problem, whatever was expected.

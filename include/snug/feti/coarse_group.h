@@ -1,5 +1,5 @@
-#ifndef snug_feti_team_h
-#define snug_feti_team_h
+#ifndef snug_feti_coarse_group_h
+#define snug_feti_coarse_group_h
 
 #include <mpi.h>
 
@@ -8,18 +8,18 @@
 
 namespace snug::feti {
 /**
- * This class is a team of ranks that factorize a replicated matrix in common. Each member holds an
+ * This class is a group of ranks that factorize a replicated matrix in common. Each member holds an
  * equal range of the rows. The members are spread evenly over all ranks and so over cluster nodes.
  */
-class Team
+class CoarseGroup
 {
 public:
-  /// Create a team of @p n_members ranks of @p all, or of all ranks if there are fewer. Collective
+  /// Create a group of @p n_members ranks of @p all, or of all ranks if there are fewer. Collective
   /// on @p all.
-  Team(MPI_Comm all, unsigned int n_members);
-  ~Team();
-  Team(const Team &)            = delete;
-  Team &operator=(const Team &) = delete;
+  CoarseGroup(MPI_Comm all, unsigned int n_members);
+  ~CoarseGroup();
+  CoarseGroup(const CoarseGroup &)            = delete;
+  CoarseGroup &operator=(const CoarseGroup &) = delete;
 
   MPI_Comm all() const { return everyone; }
   bool     has_this_rank() const { return members != MPI_COMM_NULL; }
@@ -32,7 +32,7 @@ public:
   std::pair<unsigned int, unsigned int> range(unsigned int n) const;
 
   /// Gather the members' ranges of x (n) to all of x on all ranks. Collective on all().
-  void share(std::vector<double> &x) const;
+  void allgather(std::vector<double> &x) const;
 
 private:
   /// Return the end of the rows of the first @p i members.

@@ -1,11 +1,13 @@
-#include <snug/state/expected_contacts.h>
+#include <snug/base/narrow.h>
+#include <snug/feti/initial_active_set.h>
+#include <snug/qp/row_set.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace snug::state {
+namespace snug::feti {
 namespace {
 /// The constant c. A set of up to three times the rows of the exact set takes hardly more F-mults
 /// than the exact set. A set with too few rows takes as many F-mults as the set of all rows.
@@ -23,30 +25,28 @@ const double slow = 1e-8;
 /// Return g of the owned rows after the motion that the loads begin where only contacts hold a
 /// body, up to its first touch. For a shaft in its bore, gaps are then small on the side where it
 /// falls.
-std::vector<double> gaps_after_fall(const feti::TotalFeti &feti)
+std::vector<double> rigidly_closed_gaps(const LoadedProblem &problem)
 {
-  qp::RowSet equality(feti.n_owned());
-  for (unsigned int i = 0; i < equality.size(); ++i)
-    equality[i] = !feti.bounded()[i];
-  if (feti.free_bodies(equality).empty())
-    return std::vector<double>(feti.g().column(0), feti.g().column(0) + feti.n_owned());
-  const auto rates       = feti.free_set(equality)->gap_closing_rates(feti.e());
+  const auto equality = qp::complement(problem.bounded());
+  if (free_bodies(problem.linearization(), equality).empty())
+    return std::vector<double>(problem.g().column(0), problem.g().column(0) + problem.n_owned());
+  const auto rates       = problem.free_set(equality)->gap_closing_rates(problem.e());
   double     extremes[2] = {0., HUGE_VAL}; // maximum rate, time until the first touch
   for (const double rate : rates)
     extremes[0] = std::max(extremes[0], std::abs(rate));
-  const MPI_Comm comm = feti.context().communicator();
+  const MPI_Comm comm = problem.context().communicator();
   MPI_Allreduce(MPI_IN_PLACE, &extremes[0], 1, MPI_DOUBLE, MPI_MAX, comm);
-  std::vector<double> gaps(feti.n_owned());
+  std::vector<double> gaps(problem.n_owned());
   for (unsigned int i = 0; i < gaps.size(); ++i)
     {
-      gaps[i] = feti.g()(i);
-      if (feti.bounded()[i] && rates[i] > slow * extremes[0])
+      gaps[i] = problem.g()(i);
+      if (problem.bounded()[i] && rates[i] > slow * extremes[0])
         extremes[1] = std::min(extremes[1], std::max(gaps[i], 0.) / rates[i]);
     }
   MPI_Allreduce(MPI_IN_PLACE, &extremes[1], 1, MPI_DOUBLE, MPI_MIN, comm);
   if (std::isfinite(extremes[1]))
     for (unsigned int i = 0; i < gaps.size(); ++i)
-      if (feti.bounded()[i])
+      if (problem.bounded()[i])
         gaps[i] -= extremes[1] * rates[i];
   return gaps;
 }
@@ -62,25 +62,25 @@ const unsigned int most_changes = 20;
  * equal stiffness, and where pulling rows are released. The forces are G_M'(G_M G_M')^+ e on the
  * set M. Where a slender body lifts off, equilibrium alone determines approximately where.
  */
-qp::RowSet pressing_rows(const feti::TotalFeti &feti, const qp::RowSet &rows)
+qp::RowSet rigid_contact_rows(const LoadedProblem &problem, const qp::RowSet &rows)
 {
-  const MPI_Comm comm   = feti.context().communicator();
-  const double   size   = feti.feasibility_scale(0.);
+  const MPI_Comm comm   = problem.context().communicator();
+  const double   size   = problem.feasibility_scale(0.);
   qp::RowSet     result = rows;
   for (unsigned int change = 0; change < most_changes; ++change)
     {
-      const auto      set = feti.free_set(result);
-      qp::MultiVector lambda(feti.n_owned());
-      if (set->make_feasible(lambda, feti.e())[0] > balance_tolerance * size)
+      const auto      set = problem.free_set(result);
+      qp::MultiVector lambda(problem.n_owned());
+      if (set->make_feasible(lambda, problem.e())[0] > balance_tolerance * size)
         return rows;
-      const auto rates   = feti.apply_Gt(set->amplitudes(lambda));
+      const auto rates   = problem.apply_Gt(set->amplitudes(lambda));
       double     largest = 0.;
-      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+      for (unsigned int i = 0; i < problem.n_owned(); ++i)
         largest = std::max(largest, std::abs(lambda(i)));
       MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm);
       bool changed = false;
-      for (unsigned int i = 0; i < feti.n_owned(); ++i)
-        if (feti.bounded()[i] && rows[i] && std::abs(rates(i)) > slow * largest &&
+      for (unsigned int i = 0; i < problem.n_owned(); ++i)
+        if (problem.bounded()[i] && rows[i] && std::abs(rates(i)) > slow * largest &&
             result[i] != (rates(i) > 0.))
           {
             result[i] = rates(i) > 0.;
@@ -100,22 +100,21 @@ struct PairLoads
   double              held = 0.;       ///< maximum held displacement
 };
 
-PairLoads pair_loads(const feti::TotalFeti           &feti,
-                     const std::vector<double>       &gaps,
-                     const std::vector<unsigned int> &pair_of_row,
-                     unsigned int                     n_pairs)
+PairLoads
+pair_loads(const LoadedProblem &problem, const std::vector<double> &gaps, const ContactPairs &pairs)
 {
-  const MPI_Comm  comm = feti.context().communicator();
-  qp::MultiVector lambda(feti.n_owned());
-  feti.free_set(qp::RowSet(feti.n_owned(), 1))->make_feasible(lambda, feti.e());
+  const unsigned int n_pairs = pairs.n;
+  const MPI_Comm     comm    = problem.context().communicator();
+  qp::MultiVector    lambda(problem.n_owned());
+  problem.free_set(qp::RowSet(problem.n_owned(), 1))->make_feasible(lambda, problem.e());
   PairLoads loads;
   loads.force.assign(n_pairs, 0.);
   loads.least.assign(n_pairs, HUGE_VAL);
   loads.greatest.assign(n_pairs, -HUGE_VAL);
-  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+  for (unsigned int i = 0; i < problem.n_owned(); ++i)
     {
       const double       gap  = gaps[i];
-      const unsigned int pair = pair_of_row[i];
+      const unsigned int pair = pairs.of_row[i];
       if (pair == n_pairs)
         {
           loads.held = std::max(loads.held, std::abs(gap));
@@ -133,13 +132,11 @@ PairLoads pair_loads(const feti::TotalFeti           &feti,
 }
 } // namespace
 
-qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
-                             const std::vector<unsigned int> &pair_of_row,
-                             const unsigned int               n_pairs,
-                             const unsigned int               dim)
+qp::RowSet rigid_prediction(const LoadedProblem &problem, const ContactPairs &pairs)
 {
-  const auto      gaps  = gaps_after_fall(feti);
-  const PairLoads loads = pair_loads(feti, gaps, pair_of_row, n_pairs);
+  const unsigned int n_pairs = pairs.n;
+  const auto         gaps    = rigidly_closed_gaps(problem);
+  const PairLoads    loads   = pair_loads(problem, gaps, pairs);
   // The maximum gap of a row in the set lies between low and high.
   std::vector<double> low(n_pairs), high(n_pairs);
   for (unsigned int p = 0; p < n_pairs; ++p)
@@ -152,32 +149,32 @@ qp::RowSet expected_contacts(const feti::TotalFeti           &feti,
       std::vector<double> middle(n_pairs), sums(2 * n_pairs, 0.); // number of rows, sum of F_ii
       for (unsigned int p = 0; p < n_pairs; ++p)
         middle[p] = (low[p] + high[p]) / 2;
-      for (unsigned int i = 0; i < feti.n_owned(); ++i)
+      for (unsigned int i = 0; i < problem.n_owned(); ++i)
         {
-          const unsigned int pair = pair_of_row[i];
+          const unsigned int pair = pairs.of_row[i];
           if (pair == n_pairs || gaps[i] > middle[pair])
             continue;
           sums[2 * pair] += 1.;
-          sums[2 * pair + 1] += feti.diagonal()[i];
+          sums[2 * pair + 1] += problem.diagonal()[i];
         }
-      MPI_Allreduce(MPI_IN_PLACE, sums.data(), int(sums.size()), MPI_DOUBLE, MPI_SUM,
-                    feti.context().communicator());
+      MPI_Allreduce(MPI_IN_PLACE, sums.data(), narrow<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                    problem.context().communicator());
       for (unsigned int p = 0; p < n_pairs; ++p)
         {
-          const double n = std::max(sums[2 * p], 1.);
-          const double approach =
-            generosity * loads.force[p] * sums[2 * p + 1] / n * (dim == 3 ? 1. / std::sqrt(n) : 1.);
+          const double n        = std::max(sums[2 * p], 1.);
+          const double approach = generosity * loads.force[p] * sums[2 * p + 1] / n *
+                                  (pairs.dim == 3 ? 1. / std::sqrt(n) : 1.);
           (approach < middle[p] - loads.least[p] ? high : low)[p] = middle[p];
         }
     }
-  qp::RowSet expected(feti.n_owned(), 1);
-  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+  qp::RowSet expected(problem.n_owned(), 1);
+  for (unsigned int i = 0; i < problem.n_owned(); ++i)
     {
-      const unsigned int pair = pair_of_row[i];
+      const unsigned int pair = pairs.of_row[i];
       // Pairs without a known force that presses them together keep all their rows.
       if (pair < n_pairs && (loads.force[pair] > 0. || low[pair] > loads.least[pair]))
         expected[i] = gaps[i] <= high[pair];
     }
-  return pressing_rows(feti, expected);
+  return rigid_contact_rows(problem, expected);
 }
-} // namespace snug::state
+} // namespace snug::feti

@@ -1,5 +1,5 @@
 #include <snug/base/narrow.h>
-#include <snug/feti/team.h>
+#include <snug/feti/coarse_group.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 
 namespace snug::feti {
-Team::Team(MPI_Comm all, const unsigned int the_members)
+CoarseGroup::CoarseGroup(MPI_Comm all, const unsigned int the_members)
   : everyone(all)
   , n_ranks(dealii::Utilities::MPI::n_mpi_processes(all))
   , n_members(std::min(the_members, n_ranks))
@@ -17,29 +17,29 @@ Team::Team(MPI_Comm all, const unsigned int the_members)
   MPI_Comm_split(all, is_member ? 0 : MPI_UNDEFINED, narrow<int>(my_rank), &members);
 }
 
-Team::~Team()
+CoarseGroup::~CoarseGroup()
 {
   if (members != MPI_COMM_NULL)
     MPI_Comm_free(&members);
 }
 
 /// Member i is rank floor(i n_ranks / n_members).
-unsigned int Team::members_before(const unsigned int rank) const
+unsigned int CoarseGroup::members_before(const unsigned int rank) const
 {
   return narrow<unsigned int>((std::uint64_t(rank) * n_members + n_ranks - 1) / n_ranks);
 }
 
-unsigned int Team::end(const unsigned int n, const unsigned int i) const
+unsigned int CoarseGroup::end(const unsigned int n, const unsigned int i) const
 {
   return narrow<unsigned int>(std::uint64_t(n) * i / n_members);
 }
 
-std::pair<unsigned int, unsigned int> Team::range(const unsigned int n) const
+std::pair<unsigned int, unsigned int> CoarseGroup::range(const unsigned int n) const
 {
   return {end(n, members_before(my_rank)), end(n, members_before(my_rank + 1))};
 }
 
-void Team::share(std::vector<double> &x) const
+void CoarseGroup::allgather(std::vector<double> &x) const
 {
   std::vector<int>   counts, first;
   const unsigned int n = narrow<unsigned int>(x.size());

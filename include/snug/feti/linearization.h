@@ -1,0 +1,111 @@
+#ifndef snug_feti_linearization_h
+#define snug_feti_linearization_h
+
+#include <snug/feti/deflation.h>
+#include <snug/feti/operators.h>
+
+#include <memory>
+
+namespace snug::feti {
+/**
+ * This class holds the operators of Total FETI at one geometry, for bodies torn into floating
+ * subdomains,
+ * @f[ F = B K^+ B^T,\quad G = R^T B^T, @f]
+ * the preconditioner and the soft modes. All loads of the geometry share it. Subdomains with equal
+ * matrices share one factorization.
+ *
+ * Source: Dostál, Horák, Kučera, Commun. Numer. Meth. Engng 22 (2006).
+ */
+class Linearization
+{
+public:
+  /**
+   * Factorize the subdomains, update G, G G' and B D^-1 B', and deflate by the soft modes. All
+   * references must outlive this object, and the systems must not change. Collective.
+   * @param[in] B of the subdomains of this rank.
+   * @param[in] factors of the subdomains of this rank; null: to be factorized.
+   * @param[in] soft_modes of the pairing; null: they are found with these matrices if
+   *   Operators::seeks_soft_modes().
+   * @throws SolveError where a matrix is not positive definite.
+   */
+  Linearization(const Operators                          &operators,
+                const std::vector<SubdomainSystem>       &systems,
+                ConstraintRows                            B,
+                FactorsOfSubdomains                       factors,
+                std::shared_ptr<const DeflationStructure> soft_modes);
+
+  RunContext                         &context() const { return operators.cache.context; }
+  const RowLayout                    &layout() const { return operators.layout; }
+  unsigned int                        n_owned() const { return layout().n_owned(); }
+  const qp::RowSet                   &bounded() const { return layout().bounded(); }
+  const SubdomainTable               &table() const { return operators.coarse.table; }
+  const std::vector<SubdomainSystem> &subdomains() const { return systems; }
+  const ConstraintRows               &B() const { return rows; }
+
+  /// Return the factorizations, which a later linearization may share.
+  const FactorsOfSubdomains &factors() const { return subdomain_factors; }
+
+  /// Return the soft modes of the pairing, which a later linearization takes. Never null.
+  const std::shared_ptr<const DeflationStructure> &soft_modes() const { return modes; }
+
+  const CoarseSpace &coarse() const { return *coarse_space; }
+
+  /// Return (B D^{-1} B')_ii with D = diag K: the compliance of the unknowns of row i with their
+  /// neighbours held. It is often far below F_ii, because the neighbours are held: a thousandth of
+  /// F_ii where Poisson's ratio is 0.4999.
+  const std::vector<double> &diagonal() const { return F_diagonal; }
+
+  /// Return F x. Collective.
+  qp::MultiVector apply(const qp::MultiVector &x) const;
+
+  /// Return the face on which the rows @p free are free. Collective.
+  std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const;
+
+  /// Return B v of primal vectors on the owned rows. Collective.
+  qp::MultiVector multiply_B(const PrimalVectors &v) const;
+
+  /// Return B' lambda. Collective.
+  PrimalVectors multiply_Bt(const qp::MultiVector &lambda) const;
+
+  /// Return K^+ applied to primal vectors.
+  PrimalVectors apply_inverse(const PrimalVectors &right_hand_side) const;
+
+  /// Return R' b of primal vectors, n_kernel x k on all ranks. Collective.
+  qp::MultiVector rigid_part(const PrimalVectors &b) const;
+
+  /// Return max_s || |R_s|' |b_s| || for every column. The rounding error of the rigid part is
+  /// relative to this value, however much of the rigid part cancels. Collective.
+  std::vector<double> gross_rigid_part(const PrimalVectors &b) const;
+
+  /// Return u = K^+ (b - B' lambda) + R alpha. Collective.
+  PrimalVectors
+  recover(PrimalVectors b, const qp::MultiVector &lambda, const qp::MultiVector &alpha) const;
+
+  /// Add R alpha to u.
+  void add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const;
+
+private:
+  class FetiFreeSet;
+
+  void                   factorize();
+  std::vector<double>    gather_entries();
+  std::vector<RowForces> find_soft_modes(const std::vector<double> &entries) const;
+  void                   weight_rows();
+  void                   precondition(qp::MultiVector &x) const;
+  unsigned int           n_columns(const PrimalVectors &v) const;
+
+  const Operators                    &operators;
+  const std::vector<SubdomainSystem> &systems;
+  const ConstraintRows                rows;
+  FactorsOfSubdomains                 subdomain_factors;
+  std::unique_ptr<const CoarseSpace>  coarse_space;
+  std::unique_ptr<const RowGram>      gram;
+  std::vector<double>                 F_diagonal;
+  /// B D^{-1} of each subdomain, numbered by the boundary positions of its Schur complement
+  ConstraintRows                            weighted_B;
+  std::shared_ptr<const DeflationStructure> modes;
+  std::unique_ptr<const Deflation>          deflation; ///< null without soft modes
+};
+} // namespace snug::feti
+
+#endif

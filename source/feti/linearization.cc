@@ -1,0 +1,311 @@
+#include <snug/base/narrow.h>
+#include <snug/feti/linearization.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::feti {
+namespace {
+/// Return the name of the matrix in messages of failed factorizations.
+std::string name_of_subdomain(const SubdomainTable &table, unsigned int id)
+{
+  return "the stiffness of subdomain " + std::to_string(id) + " of body " +
+         table.body_names[table.body[id]];
+}
+
+/// Add B x to y for one subdomain. y has the local rows of the rank, x the unknowns of the
+/// subdomain.
+void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
+{
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
+    {
+      const double *from = x.column(j);
+      double       *to   = y.column(j);
+      for (const BEntry &entry : B)
+        to[entry.row] += entry.value * from[entry.dof];
+    }
+}
+
+/// Add B' x to y.
+void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
+{
+  for (unsigned int j = 0; j < x.n_columns(); ++j)
+    {
+      const double *from = x.column(j);
+      double       *to   = y.column(j);
+      for (const BEntry &entry : B)
+        to[entry.dof] += entry.value * from[entry.row];
+    }
+}
+} // namespace
+
+bool Operators::seeks_soft_modes(const std::vector<SubdomainSystem> &systems) const
+{
+  if (parameters.preconditioner == Preconditioner::none ||
+      parameters.soft_modes == SoftModesOf::none)
+    return false;
+  bool slender = parameters.soft_modes == SoftModesOf::all;
+  for (const SubdomainSystem &system : systems)
+    slender = slender || !system.compact;
+  return dealii::Utilities::MPI::logical_or(slender, layout.communicator());
+}
+
+Linearization::Linearization(const Operators                          &the_operators,
+                             const std::vector<SubdomainSystem>       &the_systems,
+                             ConstraintRows                            B,
+                             FactorsOfSubdomains                       factors,
+                             std::shared_ptr<const DeflationStructure> soft_modes)
+  : operators(the_operators)
+  , systems(the_systems)
+  , rows(std::move(B))
+  , subdomain_factors(std::move(factors))
+  , F_diagonal(n_owned(), 0.)
+  , modes(std::move(soft_modes))
+{
+  factorize();
+  std::vector<double> entries;
+  {
+    const RunContext::Timer timer(context(), "solve");
+    entries = gather_entries();
+    // G and G G' follow B, 1/D and their products with R.
+    coarse_space = std::make_unique<CoarseSpace>(operators.coarse, entries, 2, systems);
+    throw_collectively(context().communicator(), [&]() {
+      gram = std::make_unique<RowGram>(operators.gram, entries, 2 + table().n_modes);
+    });
+    weight_rows();
+  }
+  const RunContext::Timer timer(context(), "soft modes");
+  if (!modes)
+    modes = std::make_shared<const DeflationStructure>(operators.coarse,
+                                                       narrow<unsigned int>(systems.size()),
+                                                       find_soft_modes(entries),
+                                                       operators.parameters.coarse_ranks);
+  if (modes->n_vectors > 0)
+    deflation = std::make_unique<Deflation>(*modes, systems, rows, subdomain_factors);
+}
+
+/// A factorization may fail on one rank only. throw_collectively() turns this failure into an error
+/// on all ranks, because otherwise the other ranks would wait in the next collective call.
+void Linearization::factorize()
+{
+  throw_collectively(context().communicator(), [&]() {
+    const RunContext::Timer timer(context(), "factorization");
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      if (!subdomain_factors[s])
+        subdomain_factors[s] =
+          std::make_shared<const SubdomainFactors>(systems[s], rows[s],
+                                                   operators.parameters.preconditioner,
+                                                   operators.cache,
+                                                   name_of_subdomain(table(), table().first + s));
+  });
+}
+
+/// Send B, 1/D and B R of each entry to the owner of its row. 1/D is one for scaling by
+/// multiplicity. Set the estimate of F_ii.
+std::vector<double> Linearization::gather_entries()
+{
+  const unsigned int  width = 2 + table().n_modes;
+  std::vector<double> values;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (const BEntry &entry : rows[s])
+      {
+        values.push_back(entry.value);
+        values.push_back(1. / systems[s].K.diagonal(entry.dof));
+        for (unsigned int mode = 0; mode < table().n_modes; ++mode)
+          values.push_back(entry.value * systems[s].R(entry.dof, mode));
+      }
+  auto        gathered = layout().gather_entries(width, values);
+  const auto &start    = layout().entry_start();
+  for (unsigned int row = 0; row < n_owned(); ++row)
+    for (unsigned int e = start[row]; e < start[row + 1]; ++e)
+      {
+        double *entry = &gathered[std::size_t(e) * width];
+        // Use diag K also for scaling by multiplicity, because F_diagonal must be a compliance.
+        F_diagonal[row] += entry[0] * entry[0] * entry[1];
+        if (operators.parameters.scaling != Scaling::stiffness)
+          entry[1] = 1.;
+      }
+  return gathered;
+}
+
+void Linearization::weight_rows()
+{
+  if (operators.parameters.preconditioner == Preconditioner::none)
+    return;
+  weighted_B = rows;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (BEntry &entry : weighted_B[s])
+      {
+        // B D^-1 is numbered by the unknowns of the Schur complement.
+        if (operators.parameters.scaling == Scaling::stiffness)
+          entry.value *= 1. / systems[s].K.diagonal(entry.dof);
+        entry.dof = subdomain_factors[s]->schur->boundary_position()[entry.dof];
+      }
+}
+
+/// Return the row forces of the soft modes of the subdomains of this rank.
+std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> &entries) const
+{
+  std::vector<RowForces> forces;
+  if (!operators.seeks_soft_modes(systems))
+    return forces;
+  const unsigned int first   = table().first;
+  const auto         columns = jump_operator(layout(), *gram, entries, 2 + table().n_modes, first,
+                                             narrow<unsigned int>(systems.size()));
+  const auto         neighbours =
+    stiffness_of_neighbours(systems, columns, first, context().communicator());
+  double largest = 0.;
+  // Number of vectors, and number of subdomains with at least one.
+  std::vector<unsigned int> counts(2, 0);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto modes_of_s =
+        feti::soft_modes(systems[s], *subdomain_factors[s], columns[s], neighbours[s], first + s);
+      if (modes_of_s.mu.empty())
+        continue;
+      forces.push_back(row_forces(modes_of_s, columns[s], first + s));
+      largest = std::max(largest, modes_of_s.mu.front());
+      counts[0] += narrow<unsigned int>(modes_of_s.mu.size());
+      ++counts[1];
+    }
+  dealii::Utilities::MPI::sum(counts, context().communicator(), counts);
+  largest = dealii::Utilities::MPI::max(largest, context().communicator());
+  context().work.soft_modes += counts[0];
+  if (counts[0] > 0)
+    context().out(Verbosity::debug)
+      << "soft modes: " << counts[0] << " of " << counted(counts[1], "subdomain")
+      << ", maximum eigenvalue " << largest << std::endl;
+  return forces;
+}
+
+/// Return F x = B K^+ B' x. K^+ is one of many generalized inverses. The F of another one differs
+/// by some G'X + X'G, which vanishes in P F P.
+qp::MultiVector Linearization::apply(const qp::MultiVector &x) const
+{
+  // A block of k columns counts as k F-mults, though it is one pass over the factors.
+  context().work.f_mults += x.n_columns();
+  return multiply_B(apply_inverse(multiply_Bt(x)));
+}
+
+/// Return the number of columns of @p v. A rank without subdomains has no vectors and takes the
+/// number from other ranks.
+unsigned int Linearization::n_columns(const PrimalVectors &v) const
+{
+  return dealii::Utilities::MPI::max(v.empty() ? 0 : v.front().n_columns(),
+                                     context().communicator());
+}
+
+qp::MultiVector Linearization::multiply_B(const PrimalVectors &v) const
+{
+  qp::MultiVector local(layout().n_local(), n_columns(v));
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    add_product(rows[s], v[s], local);
+  return layout().to_owned(local);
+}
+
+PrimalVectors Linearization::multiply_Bt(const qp::MultiVector &lambda) const
+{
+  const qp::MultiVector local = layout().to_local(lambda);
+  PrimalVectors         v;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      v.emplace_back(systems[s].n_dofs(), lambda.n_columns());
+      add_transposed(rows[s], local, v.back());
+    }
+  return v;
+}
+
+/// No communication is needed: each subdomain is solved on its rank.
+PrimalVectors Linearization::apply_inverse(const PrimalVectors &right_hand_side) const
+{
+  PrimalVectors x;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      x.emplace_back(systems[s].n_dofs(), right_hand_side[s].n_columns());
+      subdomain_factors[s]->inverse.apply(right_hand_side[s], x.back());
+    }
+  return x;
+}
+
+qp::MultiVector Linearization::rigid_part(const PrimalVectors &b) const
+{
+  const unsigned int k = n_columns(b), m = table().n_modes;
+  qp::MultiVector    result(table().n_kernel(), k);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (unsigned int j = 0; j < k; ++j)
+      for (unsigned int mode = 0; mode < m; ++mode)
+        for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+          result((table().first + s) * m + mode, j) += systems[s].R(i, mode) * b[s](i, j);
+  operators.coarse.sum(result);
+  return result;
+}
+
+PrimalVectors Linearization::recover(PrimalVectors          b,
+                                     const qp::MultiVector &lambda,
+                                     const qp::MultiVector &alpha) const
+{
+  // K^+ (b - B' lambda) solves the equations of a subdomain only if e = G lambda. With K_rho, an
+  // unbalanced rest loads the fixing nodes.
+  const PrimalVectors forces = multiply_Bt(lambda);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    b[s].add(-1., forces[s]);
+  PrimalVectors u = apply_inverse(b);
+  add_rigid(alpha, u);
+  return u;
+}
+
+void Linearization::add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const
+{
+  const unsigned int m = table().n_modes;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (unsigned int j = 0; j < u[s].n_columns(); ++j)
+      for (unsigned int mode = 0; mode < m; ++mode)
+        {
+          const double amplitude = alpha((table().first + s) * m + mode, j);
+          for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+            u[s](i, j) += systems[s].R(i, mode) * amplitude;
+        }
+}
+
+/// Take the maximum over subdomains, because the gluing forces of a subdomain are of the size of
+/// its own loads, even where the loads of the body cancel.
+std::vector<double> Linearization::gross_rigid_part(const PrimalVectors &b) const
+{
+  const unsigned int  k = n_columns(b);
+  std::vector<double> largest(k, 0.);
+  for (unsigned int s = 0; s < b.size(); ++s)
+    for (unsigned int j = 0; j < k; ++j)
+      {
+        double square = 0.;
+        for (unsigned int mode = 0; mode < systems[s].R.n_columns(); ++mode)
+          {
+            double sum = 0.;
+            for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
+              sum += std::abs(systems[s].R(i, mode) * b[s](i, j));
+            square += sum * sum;
+          }
+        largest[j] = std::max(largest[j], std::sqrt(square));
+      }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), narrow<int>(k), MPI_DOUBLE, MPI_MAX,
+                context().communicator());
+  return largest;
+}
+
+/// Set x <- B D^-1 S D^-1 B' x, without the factors W^-1 on both sides, which belong to a face.
+void Linearization::precondition(qp::MultiVector &x) const
+{
+  const qp::MultiVector local = layout().to_local(x);
+  const unsigned int    k     = x.n_columns();
+  qp::MultiVector       result(layout().n_local(), k);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const LocalSchur &schur = *subdomain_factors[s]->schur;
+      qp::MultiVector   boundary(schur.n_boundary(), k);
+      add_transposed(weighted_B[s], local, boundary);
+      add_product(weighted_B[s], schur.apply(boundary), result);
+    }
+  x = layout().to_owned(result);
+}
+} // namespace snug::feti
