@@ -152,8 +152,8 @@ Finds the shape of elastic bodies that makes their contact best.
                         areas and bounding boxes, solve nothing
     --advise            solve the first state and say what the scene could do without
                         or lacks: symmetry, rigid bodies, needless cells, locking
-    --estimate          say what a run will take, in memory and seconds, and build
-                        nothing; --ranks N for runs on N MPI ranks
+    --estimate          make the meshes and print the memory and the seconds that a run
+                        will take; --ranks N for runs on N MPI ranks
     --print-parameters  all entries, their defaults and meaning (Markdown)
     --help, --version
 

@@ -142,26 +142,36 @@ void prepare_output(const RunContext &context, const scene::Scene &scene)
   });
 }
 
-/// Rank 0 counts; an estimate is no business of the others.
-void print_estimate(RunContext         &context,
-                    const scene::Scene &scene,
-                    unsigned int        ranks,
-                    const bool          stages)
+/// Print the estimated cost of a run with @p mesh on @p ranks ranks. Collective.
+template <int dim>
+void print_estimate(RunContext                &context,
+                    const scene::Scene        &scene,
+                    const mesh::BodyMesh<dim> &mesh,
+                    const unsigned int         ranks,
+                    const bool                 stages)
 {
+  const auto counts = advice::count(scene, mesh);
   everywhere(context.communicator(), [&]() {
     if (context.rank() == 0)
       made_of(scene, [&]() {
-        print(advice::estimate_cost(scene, ranks > 0 ? ranks : context.n_ranks(),
-                                    advice::machine_speed()),
-              stages, context.out());
+        print(advice::estimate_cost(scene, counts, ranks, advice::machine_speed()), stages,
+              context.out());
       });
   });
+}
+
+template <int dim>
+void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned int ranks)
+{
+  const auto mesh = timed_mesh<dim>(context, scene);
+  print_estimate(context, scene, *mesh, ranks > 0 ? ranks : context.n_ranks(), true);
 }
 
 template <int dim>
 void validate_in(RunContext &context, const scene::Scene &scene)
 {
   auto mesh = timed_mesh<dim>(context, scene);
+  print_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_import_notes(scene, context.out());
   print(take_inventory(scene, *mesh), context.out());
   for (const auto &line : unrefined(scene, *mesh))
@@ -222,8 +232,9 @@ std::string run_adapted_search(RunContext &context, const scene::Scene &scene, c
 template <int dim>
 std::string run_given(RunContext &context, const scene::Scene &scene, const Options &options)
 {
-  print_estimate(context, scene, 0, false);
-  ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
+  auto mesh = timed_mesh<dim>(context, scene);
+  print_estimate(context, scene, *mesh, context.n_ranks(), false);
+  ShapeProblem<dim> problem(context, scene, std::move(mesh));
   problem.check_overlaps();
   if (!options.restart)
     io::remove_results(context, output_directories(scene));
@@ -322,7 +333,6 @@ void run_study(RunContext &context, const scene::Scene &given, const Options &op
 
 void validate(RunContext &context, const scene::Scene &scene)
 {
-  print_estimate(context, scene, 0, false);
   if (scene.dimension == 2)
     validate_in<2>(context, scene);
   else
@@ -339,7 +349,8 @@ int run(const Options &options)
      [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
-    print_estimate(context, scene, options.ranks, true);
+    scene.dimension == 2 ? estimate_in<2>(context, scene, options.ranks)
+                         : estimate_in<3>(context, scene, options.ranks);
   else if (options.validate)
     {
       validate(context, scene);

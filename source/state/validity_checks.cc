@@ -1,6 +1,6 @@
 #include <snug/base/errors.h>
-#include <snug/state/assumptions.h>
 #include <snug/state/contact_patches.h>
+#include <snug/state/validity_checks.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -60,7 +60,7 @@ template <int dim>
 void assess_facets(const StateSolver<dim>               &solver,
                    const std::vector<contact::Row<dim>> &contact_rows,
                    const ContactState<dim>              &state,
-                   Assumptions                          &result)
+                   ValidityChecks                       &result)
 {
   std::vector<double> closed(solver.contact().pairs().size(), 0.);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
@@ -82,11 +82,11 @@ void assess_facets(const StateSolver<dim>               &solver,
 } // namespace
 
 template <int dim>
-Assumptions assess(const StateSolver<dim>               &solver,
-                   const std::vector<contact::Row<dim>> &contact_rows,
-                   const ContactState<dim>              &state)
+ValidityChecks check_validity(const StateSolver<dim>               &solver,
+                              const std::vector<contact::Row<dim>> &contact_rows,
+                              const ContactState<dim>              &state)
 {
-  Assumptions result;
+  ValidityChecks result;
   for (const auto &subdomain : solver.tearing().subdomains)
     for (const unsigned int cell : subdomain.cells)
       {
@@ -128,38 +128,43 @@ Assumptions assess(const StateSolver<dim>               &solver,
   return result;
 }
 
-std::vector<std::string> warnings(const Assumptions &assumptions)
+std::string facet_warning(const ValidityChecks &validity)
+{
+  if (validity.facet_height <= large_facets * validity.closed_gap)
+    return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "facets that contact sees are " << validity.facet_height
+       << " high, but the largest gap or overlap it closes is " << validity.closed_gap
+       << ": pressures follow the facets; see 'Surface', or take a finer mesh file";
+  return text.str();
+}
+
+std::vector<std::string> warnings(const ValidityChecks &validity)
 {
   std::vector<std::string> lines;
-  if (assumptions.rotation > large_rotation)
+  if (validity.rotation > large_rotation)
     lines.push_back(
-      line("cells turn by", assumptions.rotation, " rad", ": small rotations are assumed"));
-  if (assumptions.strain > large_strain)
-    lines.push_back(line("strains are", assumptions.strain, "", ": small ones are assumed"));
-  if (assumptions.slip > large_slip)
-    lines.push_back(line("active contacts slide by", assumptions.slip, " of a face",
-                         ": small sliding is assumed"));
-  if (assumptions.drift > large_drift)
+      line("cells turn by", validity.rotation, " rad", ": small rotations are assumed"));
+  if (validity.strain > large_strain)
+    lines.push_back(line("strains are", validity.strain, "", ": small ones are assumed"));
+  if (validity.slip > large_slip)
+    lines.push_back(
+      line("active contacts slide by", validity.slip, " of a face", ": small sliding is assumed"));
+  if (validity.drift > large_drift)
     lines.push_back(line("the design moved slave nodes off the points they were paired "
                          "with by",
-                         assumptions.drift, " of a face", ": see 'Contact/Update pairing'"));
-  if (assumptions.width < least_width)
+                         validity.drift, " of a face", ": see 'Contact/Update pairing'"));
+  if (validity.width < least_width)
     {
       std::ostringstream text;
       text.precision(2);
-      text << "a contact is " << assumptions.width
+      text << "a contact is " << validity.width
            << " faces wide: its pressures need finer meshes there, of 8 faces or more";
       lines.push_back(text.str());
     }
-  if (assumptions.facet_height > large_facets * assumptions.closed_gap)
-    {
-      std::ostringstream text;
-      text.precision(2);
-      text << "facets that contact sees are " << assumptions.facet_height
-           << " high, but the largest gap or overlap it closes is " << assumptions.closed_gap
-           << ": pressures follow the facets; see 'Surface', or take a finer mesh file";
-      lines.push_back(text.str());
-    }
+  if (const auto facets = facet_warning(validity); !facets.empty())
+    lines.push_back(facets);
   return lines;
 }
 
@@ -222,8 +227,10 @@ std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     
   return lines;
 }
 
-template Assumptions
-assess(const StateSolver<2> &, const std::vector<contact::Row<2>> &, const ContactState<2> &);
-template Assumptions
-assess(const StateSolver<3> &, const std::vector<contact::Row<3>> &, const ContactState<3> &);
+template ValidityChecks check_validity(const StateSolver<2> &,
+                                       const std::vector<contact::Row<2>> &,
+                                       const ContactState<2> &);
+template ValidityChecks check_validity(const StateSolver<3> &,
+                                       const std::vector<contact::Row<3>> &,
+                                       const ContactState<3> &);
 } // namespace snug::state
