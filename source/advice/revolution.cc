@@ -118,12 +118,12 @@ private:
   }
 
   /// Return whether the true surface and changes of the material are surfaces of revolution.
-  /// Compute the mean of the outer normals of the faces that bound the sector. Collective.
+  /// Compute the bounds of the outer normals of the faces that bound the sector. Collective.
   bool keeps_surface()
   {
     const double tolerance = 1e-4; // differences of the map have errors of 1e-6
     bool         kept      = true;
-    sector.assign(4 * mesh.n_bodies(), 0.);
+    sector.assign(6 * mesh.n_bodies(), none);
     for (unsigned int f = 0; f < mesh.boundary_faces().size() && kept; ++f)
       {
         const auto &face   = mesh.boundary_faces()[f];
@@ -133,13 +133,17 @@ private:
             kept = across.second < tolerance;
             continue;
           }
-        const auto   unit = face_points(face.number).front();
-        const Vector area = true_area(face.cell, face.number, unit);
-        kept              = conditions.is_symmetry_support(
-          {face.body, face.boundary, mesh.true_position(face.cell, unit), area / area.norm()});
+        const auto   unit   = face_points(face.number).front();
+        const Vector area   = true_area(face.cell, face.number, unit);
+        const Vector normal = area / area.norm();
+        kept                = conditions.is_symmetry_support(
+          {face.body, face.boundary, mesh.true_position(face.cell, unit), normal});
         for (unsigned int d = 0; d < 3; ++d)
-          sector[4 * face.body + d] += area[d];
-        sector[4 * face.body + 3] += area.norm();
+          {
+            double *bounds = &sector[6 * face.body];
+            bounds[d]      = std::max(bounds[d], normal[d]);
+            bounds[3 + d]  = std::max(bounds[3 + d], -normal[d]);
+          }
       }
     for (unsigned int f = 0; f < mesh.interior_faces().size() && kept; ++f)
       {
@@ -152,14 +156,18 @@ private:
     return on_all_ranks(kept);
   }
 
-  /// Return whether all bodies are full, or sectors between the same planes. The mean of the outer
-  /// normals t_1 and t_2 has the norm sin(angle / 2) and points away from the sector. Collective.
+  /// Return whether all bodies are full, or sectors between the same planes. The mean of the two
+  /// outer normals is the mean of the bounds of their components. It has the norm sin(angle / 2)
+  /// and points away from the sector. Collective.
   bool keeps_sector()
   {
-    dealii::Utilities::MPI::sum(sector, mesh.communicator(), sector);
+    dealii::Utilities::MPI::max(sector, mesh.communicator(), sector);
     const auto mean = [&](const unsigned int body) {
-      const double *sums = &sector[4 * body];
-      return Vector(Point(sums[0], sums[1], sums[2]) / std::max(sums[3], 1e-300));
+      const double *bounds = &sector[6 * body];
+      Vector        result;
+      for (unsigned int d = 0; d < 3 && bounds[0] > none; ++d)
+        result[d] = 0.5 * (bounds[d] - bounds[3 + d]);
+      return result;
     };
     for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
       if ((mean(body) - mean(0)).norm() > 1e-3)
@@ -249,7 +257,8 @@ private:
   const mesh::BodyMesh<3>   &mesh;
   const Point                point;
   const Vector               axis;
-  std::vector<double>        sector; ///< per body: sum of the area vectors, and of the areas
+  static constexpr double    none = -2.; ///< bound without normals
+  std::vector<double>        sector; ///< per body: maxima of the components of normals n, and of -n
   bool                       is_sector    = false;
   double                     sector_angle = 0.;
   Vector                     middle; ///< direction of the middle of the sector

@@ -20,16 +20,22 @@ public:
       in_cells.push_back({at, conditions.data(at)});
   }
 
-  /// Return the advice for each plane of symmetry. Collective.
+  /// Return the advice for planes of symmetry at right angles to each other. Further planes would
+  /// not halve the model again. Collective.
   std::vector<Advice> advice() const
   {
     std::vector<Advice> result;
+    std::vector<Vector> found;
     for (const auto &normal : candidates())
       {
+        if (std::any_of(found.begin(), found.end(),
+                        [&](const Vector &other) { return std::abs(other * normal) > 1e-10; }))
+          continue;
         const auto Q = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) -
                        2. * outer_product(normal, normal);
         if (!keeps_responses(Q) || !keeps(in_cells, Q) || !keeps(on_faces, Q) || !keeps_design(Q))
           continue;
+        found.push_back(normal);
         std::ostringstream text;
         text << "the model is symmetric about the plane through "
              << text_of((conditions.centre() * normal) * normal) << " with normal "
