@@ -232,7 +232,8 @@ void Conditions<dim>::add_contact(const Place<dim> &at, PointData<dim> &data) co
         motion[d] += pair.obstacle->displacement[d];
       if (const auto found = obstacles[p]->distance(at.x))
         {
-          distance += found->value;
+          // Rounding errors of a distance of zero are small relative to the size of the bodies.
+          distance += size() + found->value;
           normal += found->gradient;
         }
     }
