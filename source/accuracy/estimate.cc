@@ -7,9 +7,9 @@
 #include <snug/base/errors.h>
 #include <snug/mesh/shared_nodes.h>
 #include <snug/sensitivity/methods.h>
-#include <snug/state/assumptions.h>
 #include <snug/state/contact_results.h>
 #include <snug/state/continuity.h>
+#include <snug/state/validity_checks.h>
 
 #include <deal.II/base/mpi.h>
 

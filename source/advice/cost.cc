@@ -1,16 +1,81 @@
 #include <snug/advice/cost.h>
 #include <snug/base/values.h>
 #include <snug/elasticity/element.h>
+#include <snug/mesh/parts.h>
+#include <snug/mesh/surface.h>
 #include <snug/response/response.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <set>
 #include <sstream>
 
 namespace snug::advice {
+namespace {
+/// Return the number of nodes of a side without hanging nodes; 0 for an obstacle. Collective.
+template <int dim>
+double
+count_nodes(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side)
+{
+  std::vector<contact::Boundary> boundaries;
+  for (const auto &face : contact::faces_of_side(side))
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      if (const auto [body, boundary] = scene::split_face(face);
+          !boundary.empty() && scene.bodies[b].name == body)
+        boundaries.emplace_back(b, geometry::boundary_index(mesh.geometry(b), boundary));
+  const mesh::Surface<dim> surface(mesh, boundaries);
+  double                   n = 0.;
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    n += surface.masters(node).empty();
+  return n;
+}
+} // namespace
+
+template <int dim>
+Counts count(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
+{
+  Counts result;
+  result.cells = mesh.n_global_cells();
+  result.nodes = mesh.n_global_free_nodes();
+  for (const auto &pair : scene.contact.pairs)
+    {
+      const double slave = count_nodes(scene, mesh, pair.slave);
+      result.contact_rows += pair.parameters.slave == contact::Slave::finer
+                               ? std::max(slave, count_nodes(scene, mesh, pair.master))
+                               : slave;
+    }
+  std::set<unsigned int> parts;
+  std::vector<double>    sums(2 * mesh.n_bodies() + 1, 0.); // cells, hanging nodes, subdomains
+  for (const auto &cell : mesh.cells())
+    {
+      sums[2 * cell.body] += 1.;
+      parts.insert(cell.part);
+    }
+  for (const auto &hanging : mesh.hanging())
+    sums[2 * mesh.body_of_node(hanging.node) + 1] += 1.;
+  sums.back() = parts.size();
+  dealii::Utilities::MPI::sum(sums, mesh.communicator(), sums);
+  result.subdomains  = sums.back();
+  const auto by_size = mesh::cells_per_subdomain(dim, mesh.degree(), mesh.idealization());
+  for (unsigned int b = 0; b < mesh.n_bodies(); ++b)
+    {
+      // The cells lie in layers if the body has a grid without local refinements.
+      const bool has_layers = mesh.geometry(b).has_grid() && sums[2 * b + 1] == 0.;
+      double     each       = has_layers ? by_size.compact : by_size.other;
+      if (scene::is_nearly_incompressible(scene, scene.bodies[b]))
+        each *= mesh::larger_subdomains(dim);
+      result.subdomains_by_size += std::max(1., std::round(sums[2 * b] / each));
+      result.coarse_cells += mesh.geometry(b).n_coarse_cells();
+      result.has_layers = result.has_layers && has_layers;
+    }
+  return result;
+}
+
 namespace {
 /// A stiffness matrix of 8 nodes on the machine of the constants below [s].
 constexpr double seconds_per_element = 1.33e-6;
@@ -148,10 +213,16 @@ double machine_speed()
   return seconds_per_element / least;
 }
 
-Cost estimate_cost(const scene::Scene &scene, const unsigned int ranks, const double speed)
+/// Subdomains are made smaller, as by mesh::decide_parts(), until every rank has one.
+Cost estimate_cost(const scene::Scene &scene,
+                   Counts              given,
+                   const unsigned int  ranks,
+                   const double        speed)
 {
+  while (given.subdomains < std::min<double>(ranks, given.cells))
+    given.subdomains *= 2.;
   Cost cost;
-  cost.counts             = count(scene, ranks);
+  cost.counts             = given;
   cost.dimension          = scene.dimension;
   cost.ranks              = ranks;
   const Constants &of     = scene.dimension == 2 ? plane : solid;
@@ -216,4 +287,7 @@ void print(const Cost &cost, const bool stages, std::ostream &out)
       out << "  " << std::left << std::setw(14) << name << seconds_text(seconds) << '\n';
   out << std::flush;
 }
+
+template Counts count(const scene::Scene &, const mesh::BodyMesh<2> &);
+template Counts count(const scene::Scene &, const mesh::BodyMesh<3> &);
 } // namespace snug::advice

@@ -1,12 +1,12 @@
 #include <snug/accuracy/surface_residual.h>
 #include <snug/accuracy/transfer.h>
-#include <snug/accuracy/trust.h>
+#include <snug/accuracy/underresolved_contact.h>
 #include <snug/app/adaptation.h>
 #include <snug/base/errors.h>
 #include <snug/contact/joined_pairs.h>
 #include <snug/contact/matching.h>
 #include <snug/mesh/refined_cells.h>
-#include <snug/state/assumptions.h>
+#include <snug/state/validity_checks.h>
 
 #include <deal.II/base/mpi.h>
 

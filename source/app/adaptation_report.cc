@@ -21,7 +21,7 @@ double contact_faces(const std::vector<state::ContactState<dim>> &states)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const auto &state : states)
-    least = std::min(least, state.assumptions.width);
+    least = std::min(least, state.validity.width);
   return least;
 }
 } // namespace

@@ -154,8 +154,8 @@ Shape optimization of elastic bodies in frictionless contact.
                         bounding boxes, without a solve
     --advise            solve the first state and list simplifications of the model
                         (symmetry, rigid bodies, needless cells) and defects (locking)
-    --estimate          print the memory and the time of a run without building the
-                        model; --ranks N for runs on N MPI ranks
+    --estimate          make the meshes and print the memory and the time of a run;
+                        --ranks N for runs on N MPI ranks
     --print-parameters  print all entries, their defaults and meanings (Markdown)
     --help, --version
 

@@ -1,5 +1,5 @@
 #include <snug/accuracy/surface_residual.h>
-#include <snug/accuracy/trust.h>
+#include <snug/accuracy/underresolved_contact.h>
 #include <snug/app/adaptation.h>
 #include <snug/base/errors.h>
 #include <snug/mesh/refined_cells.h>
@@ -34,8 +34,8 @@ bool Adaptation<dim>::add_doubtful(RefinedCells &cells)
   for (const auto &state : solved->states)
     {
       const auto faces =
-        accuracy::doubtful_faces(solver, state,
-                                 reads_pressure() ? scene.accuracy.contact_faces : 0.);
+        accuracy::underresolved_contact(solver, state,
+                                        reads_pressure() ? scene.accuracy.contact_faces : 0.);
       doubtful = doubtful || !faces.empty();
       add(mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), cells);
       auto       found  = accuracy::unresolved_gaps(solver, state, rough_part());

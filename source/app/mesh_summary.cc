@@ -1,3 +1,4 @@
+#include <snug/advice/cost.h>
 #include <snug/app/build_model.h>
 #include <snug/app/mesh_summary.h>
 #include <snug/elasticity/element.h>
@@ -235,6 +236,23 @@ std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMe
   return lines;
 }
 
+template <int dim>
+void print_estimate(RunContext                &context,
+                    const scene::Scene        &scene,
+                    const mesh::BodyMesh<dim> &mesh,
+                    const unsigned int         n_ranks,
+                    const bool                 stages)
+{
+  const auto counts = advice::count(scene, mesh);
+  throw_collectively(context.communicator(), [&]() {
+    if (context.rank() == 0)
+      with_file_context(scene, [&]() {
+        print(advice::estimate_cost(scene, counts, n_ranks, advice::machine_speed()), stages,
+              context.out(stages ? Verbosity::quiet : Verbosity::normal));
+      });
+  });
+}
+
 void print_import_notes(const scene::Scene &scene, std::ostream &out)
 {
   for (const auto &body : scene.bodies)
@@ -247,8 +265,12 @@ template MeshSummary<2>           summarize_mesh(const scene::Scene &, const mes
 template void                     print(const MeshSummary<2> &, std::ostream &);
 template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<2> &);
 template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<2> &);
+template void
+print_estimate(RunContext &, const scene::Scene &, const mesh::BodyMesh<2> &, unsigned int, bool);
 template MeshSummary<3>           summarize_mesh(const scene::Scene &, const mesh::BodyMesh<3> &);
 template void                     print(const MeshSummary<3> &, std::ostream &);
 template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<3> &);
 template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<3> &);
+template void
+print_estimate(RunContext &, const scene::Scene &, const mesh::BodyMesh<3> &, unsigned int, bool);
 } // namespace snug::app

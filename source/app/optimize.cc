@@ -31,7 +31,9 @@ constexpr double part_of_error = 0.3;
 template <int dim>
 std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene, const bool restart)
 {
-  ShapeProblem<dim> problem(context, scene, timed_mesh<dim>(context, scene));
+  auto mesh = timed_mesh<dim>(context, scene);
+  print_estimate(context, scene, *mesh, context.n_ranks(), false);
+  ShapeProblem<dim> problem(context, scene, std::move(mesh));
   problem.check_overlaps();
   if (!restart)
     remove_earlier_results(context, scene);

@@ -5,8 +5,8 @@
 #include <snug/io/qp_export.h>
 #include <snug/io/shape_export.h>
 #include <snug/io/text_file.h>
-#include <snug/state/assumptions.h>
 #include <snug/state/symmetry_planes.h>
+#include <snug/state/validity_checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +144,7 @@ void Results<dim>::warn(const States &states)
 {
   for (const auto &state : states)
     {
-      warn(state::warnings(state.assumptions));
+      warn(state::warnings(state.validity));
       warn(state.free_bodies);
     }
   if (std::all_of(states.begin(), states.end(), state::is_at_rest<dim>))
@@ -297,15 +297,15 @@ void Results<dim>::advise(const States &states)
     estimates.push_back(error.energy);
   for (unsigned int c = estimates.size(); c < states.size(); ++c) // those of responses had failed
     estimates.push_back(accuracy::estimate_energy(*problem->solver, states[c]));
-  advice::Subject<dim> subject{problem->scene, *problem->solver, *problem->shapes, states,
-                               estimates};
-  double               smallest = std::numeric_limits<double>::infinity();
+  advice::AdviceInput<dim> input{problem->scene, *problem->solver, *problem->shapes, states,
+                                 estimates};
+  double                   smallest = std::numeric_limits<double>::infinity();
   for (const auto &[response, text] : problem->scene.accuracy.targets)
     if (const auto target = accuracy::read_target(text); target.relative)
       smallest = std::min(smallest, target.value);
   if (std::isfinite(smallest))
-    subject.target = smallest;
-  summary.advice = advice::give(subject);
+    input.target = smallest;
+  summary.advice = advice::collect(input);
   auto &out      = problem->context.out(Verbosity::quiet);
   for (const auto &item : *summary.advice)
     {

@@ -1,6 +1,6 @@
 #include <snug/app/mesh_summary.h>
 #include <snug/app/shape_problem.h>
-#include <snug/state/assumptions.h>
+#include <snug/state/validity_checks.h>
 
 #include <algorithm>
 #include <cmath>

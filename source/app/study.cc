@@ -1,4 +1,3 @@
-#include <snug/advice/cost.h>
 #include <snug/app/adaptation.h>
 #include <snug/app/interrupt.h>
 #include <snug/app/mesh_summary.h>
@@ -110,26 +109,18 @@ void prepare_output(const RunContext &context, const scene::Scene &scene)
   });
 }
 
-/// Rank 0 counts; an estimate is no business of the others.
-void print_estimate(RunContext         &context,
-                    const scene::Scene &scene,
-                    unsigned int        ranks,
-                    const bool          stages)
+template <int dim>
+void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned int ranks)
 {
-  throw_collectively(context.communicator(), [&]() {
-    if (context.rank() == 0)
-      with_file_context(scene, [&]() {
-        print(advice::estimate_cost(scene, ranks > 0 ? ranks : context.n_ranks(),
-                                    advice::machine_speed()),
-              stages, context.out(stages ? Verbosity::quiet : Verbosity::normal));
-      });
-  });
+  const auto mesh = timed_mesh<dim>(context, scene);
+  print_estimate(context, scene, *mesh, ranks > 0 ? ranks : context.n_ranks(), true);
 }
 
 template <int dim>
 void validate_in(RunContext &context, const scene::Scene &scene)
 {
   auto mesh = timed_mesh<dim>(context, scene);
+  print_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_import_notes(scene, context.out());
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   for (const auto &line : unrefined(scene, *mesh))
@@ -175,8 +166,9 @@ std::string analyse(RunContext &context, const scene::Scene &scene, const bool a
     }
   else
     {
-      adapted.problem =
-        std::make_unique<ShapeProblem<dim>>(context, scene, timed_mesh<dim>(context, scene));
+      auto mesh = timed_mesh<dim>(context, scene);
+      print_estimate(context, scene, *mesh, context.n_ranks(), false);
+      adapted.problem = std::make_unique<ShapeProblem<dim>>(context, scene, std::move(mesh));
       adapted.problem->check_overlaps();
       remove_earlier_results(context, scene);
     }
@@ -229,8 +221,6 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
 {
   prepare_output(context, scene);
   print_program(context);
-  if (scene.accuracy.targets.empty())
-    print_estimate(context, scene, 0, false);
   const auto failure_reason = scene.task == scene::Task::optimize && !options.advise
                                 ? optimize<dim>(context, scene, options.restart)
                                 : analyse<dim>(context, scene, options.advise);
@@ -282,7 +272,6 @@ void run_study(RunContext &context, const scene::Scene &given, const Options &op
 
 void validate(RunContext &context, const scene::Scene &scene)
 {
-  print_estimate(context, scene, 0, false);
   if (scene.dimension == 2)
     validate_in<2>(context, scene);
   else
@@ -300,7 +289,8 @@ int run(const Options &options)
   context.set_verbosity(scene.output.verbosity);
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
-    print_estimate(context, scene, options.ranks, true);
+    scene.dimension == 2 ? estimate_in<2>(context, scene, options.ranks)
+                         : estimate_in<3>(context, scene, options.ranks);
   else if (options.validate)
     {
       validate(context, scene);

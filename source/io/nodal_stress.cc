@@ -2,39 +2,11 @@
 #include <snug/io/nodal_stress.h>
 #include <snug/mesh/shared_nodes.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
 
 namespace snug::io {
 namespace {
-/// Return the coordinate in [0,1] of Gauss point @p i of @p n = 1 or 2. The points of degree 1
-/// and 2 are 1/2, and 1/2 -+ 1 / (2 sqrt 3).
-double gauss_coordinate(unsigned int n, unsigned int i)
-{
-  return n == 1 ? 0.5 : 0.5 + (i == 0 ? -0.5 : 0.5) / std::sqrt(3.);
-}
-
-/// Return the weight of Gauss point @p i of @p n in the value at @p x. It is the Lagrange
-/// polynomial of the points. Outside the points weights may be negative or above 1.
-double gauss_weight(unsigned int n, unsigned int i, double x)
-{
-  if (n == 1)
-    return 1.;
-  const double other = gauss_coordinate(n, 1 - i);
-  return (x - other) / (gauss_coordinate(n, i) - other);
-}
-
-/// Return the digit @p axis of @p index in base @p base. It is the coordinate of a point or node
-/// of a tensor product, first axis fastest.
-unsigned int tensor_index(unsigned int index, unsigned int base, unsigned int axis)
-{
-  for (unsigned int k = 0; k < axis; ++k)
-    index /= base;
-  return index % base;
-}
-
 /// Points of a cell where its stress is evaluated, and weights of the extrapolation to the nodes.
 /// The weights of a node add up to 1.
 template <int dim>
@@ -47,20 +19,18 @@ struct StressSampling
 template <int dim>
 StressSampling<dim> stress_sampling(unsigned int degree)
 {
-  const unsigned int  n_points = dealii::Utilities::fixed_power<dim>(degree);
-  const unsigned int  n_nodes  = dealii::Utilities::fixed_power<dim>(degree + 1);
   StressSampling<dim> sampling;
-  sampling.points.resize(n_points);
-  sampling.weights.assign(n_nodes, std::vector<double>(n_points, 1.));
-  for (unsigned int q = 0; q < n_points; ++q)
-    for (unsigned int k = 0; k < dim; ++k)
-      {
-        const unsigned int i  = tensor_index(q, degree, k);
-        sampling.points[q][k] = gauss_coordinate(degree, i);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          sampling.weights[a][q] *=
-            gauss_weight(degree, i, double(tensor_index(a, degree + 1, k)) / degree);
-      }
+  for (const auto &at : mesh::lagrange_gauss_points<dim>(degree - 1))
+    sampling.points.push_back(at.point);
+  // In the coordinates 1/2 + sqrt(3) (x - 1/2) the two Gauss points per axis are 0 and 1, so that
+  // the functions of degree p - 1 interpolate between them.
+  for (const auto &node : mesh::lagrange_nodes<dim>(degree))
+    {
+      const auto centre = geometry::unit_centre<dim>();
+      sampling.weights.push_back(
+        mesh::lagrange_point<dim>(degree - 1, centre + std::sqrt(3.) * (node.point - centre))
+          .value);
+    }
   return sampling;
 }
 

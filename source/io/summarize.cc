@@ -56,7 +56,7 @@ Summary::State summarize(const state::ContactState<dim> &state)
   result.method                = state.dual.method;
   result.certificate           = state.certificate;
   result.tolerance             = state.tolerance;
-  result.assumptions           = state.assumptions;
+  result.validity              = state.validity;
   for (const auto &of_pair : state.pairs)
     {
       Summary::Pair pair;

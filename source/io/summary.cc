@@ -105,10 +105,10 @@ Json summary_part(const Summary::State &state)
             {"complementarity", certificate.complementarity}}},
           {"tolerance", state.tolerance},
           {"assumptions",
-           {{"rotation", state.assumptions.rotation},
-            {"strain", state.assumptions.strain},
-            {"slip", state.assumptions.slip},
-            {"drift", state.assumptions.drift}}},
+           {{"rotation", state.validity.rotation},
+            {"strain", state.validity.strain},
+            {"slip", state.validity.slip},
+            {"drift", state.validity.drift}}},
           {"accuracy", summary_part(state.accuracy)}};
 }
 

@@ -1,7 +1,7 @@
-#include <snug/state/assumptions.h>
 #include <snug/state/contact_results.h>
 #include <snug/state/continuity.h>
 #include <snug/state/reactions.h>
+#include <snug/state/validity_checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -187,7 +187,7 @@ void recover_contact_results(const StateSolver<dim>     &solver,
   describe_contact(solver, rows, state);
   sum_up_contact(solver.contact(), rows, state);
   add_reactions(solver, rows, state);
-  state.assumptions = assess(solver, rows.contact, state);
+  state.validity    = check_validity(solver, rows.contact, state);
   state.free_bodies = free_bodies(solver, state);
 }
 

@@ -12,35 +12,34 @@
 #include <vector>
 
 namespace snug::advice {
-/// A simplification that a scene allows, or a feature that it lacks. The program only prints it.
+/// A simplification that a model allows, or a weakness of the model. The program only prints it.
 struct Advice
 {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  std::string kind; ///< "symmetry plane", "rigid body", ...
-  std::string text; ///< what to do, and why
-  /// how many times fewer unknowns, or less time of a state, the scene takes with the advice
-  /// taken; 1: it is no cheaper
+  std::string kind; ///< "symmetry plane", "rigid body", ... as in doc/advice.md
+  std::string text; ///< recommended change and its reason
+  /// factor by which the number of unknowns, or the time of a state, decreases if the advice is
+  /// followed; 1: no decrease
   double saving = 1.;
-  /// relative, of energies and forces: what taking it costs, or of facets and locking what
-  /// leaving it costs
-  double error = unknown;
-  /// "unknowns" or "time"
-  std::string saves = "unknowns";
+  /// relative error of energies and forces that the change introduces; for facets and locking the
+  /// error of the model without the change
+  double      error = unknown;
+  std::string saves = "unknowns"; ///< or "time"
 };
 
-/// A scene as it was built, and its states in all load cases with their estimates.
+/// A model with its states in all load cases and their estimated discretization errors.
 template <int dim>
-struct Subject
+struct AdviceInput
 {
   const scene::Scene                          &scene;
   const state::StateSolver<dim>               &solver;
   const shape::Shapes<dim>                    &shapes;
   const std::vector<state::ContactState<dim>> &states;
   const std::vector<accuracy::EnergyEstimate> &estimates;
-  double                                       target = 0.01; ///< relative error that is welcome
+  double                                       target = 0.01; ///< acceptable relative error
 
-  /// The estimated relative error in the energy norm, of all load cases.
+  /// Return the maximum over all load cases of the estimated relative error in the energy norm.
   double largest_error() const
   {
     double relative = 0.;
@@ -53,29 +52,20 @@ struct Subject
   const state::Model<dim>   &model() const { return solver.model(); }
 };
 
-/// @name Parts of give()
-/// @{
-
-/// "symmetry plane" and "body of revolution". Collective.
+/// Return the advice "symmetry plane" for each plane (symmetry_planes.cc). Collective.
 template <int dim>
-std::vector<Advice> symmetries(const Subject<dim> &subject);
+std::vector<Advice> symmetry_planes(const AdviceInput<dim> &input);
 
-/// "too many subdomains" and "locking". Collective.
-template <int dim>
-std::vector<Advice> settings(const Subject<dim> &subject);
+/// Return the advice "body of revolution" for at most one axis (revolution.cc). Collective.
+std::vector<Advice> revolution(const AdviceInput<3> &input);
 
-/// "rigid body" and "idle region". Collective.
+/// Return the advice "rigid body" and "unstressed region" (unstressed_regions.cc). Collective.
 template <int dim>
-std::vector<Advice> needless_cells(const Subject<dim> &subject);
+std::vector<Advice> unstressed_regions(const AdviceInput<dim> &input);
 
-/// "mesh finer than needed", "facets" and "corner". Collective.
+/// Return all advice on a model, see doc/advice.md. Collective.
 template <int dim>
-std::vector<Advice> mesh_advice(const Subject<dim> &subject);
-/// @}
-
-/// All there is to say of a scene, see doc/advice.md. Collective.
-template <int dim>
-std::vector<Advice> give(const Subject<dim> &subject);
+std::vector<Advice> collect(const AdviceInput<dim> &input);
 } // namespace snug::advice
 
 #endif

@@ -1,6 +1,7 @@
 #ifndef snug_app_mesh_summary_h
 #define snug_app_mesh_summary_h
 
+#include <snug/base/run_context.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/scene/scene.h>
 
@@ -62,6 +63,15 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
 /// One line for each body whose 'Refine where' catches no cell. Collective.
 template <int dim>
 std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
+/// Print the estimated cost of a run with @p mesh on @p n_ranks ranks: two lines, or a table of the
+/// @p stages. Collective.
+template <int dim>
+void print_estimate(RunContext                &context,
+                    const scene::Scene        &scene,
+                    const mesh::BodyMesh<dim> &mesh,
+                    unsigned int               n_ranks,
+                    bool                       stages);
 
 /// One line for each body whose mesh file was changed on reading.
 void print_import_notes(const scene::Scene &scene, std::ostream &out);

@@ -85,7 +85,7 @@ struct Summary
     std::vector<std::pair<std::string, double>> responses;
     state::Certificate                          certificate;
     double                  tolerance = none; ///< tolerance met by the certificate
-    state::Assumptions      assumptions;
+    state::ValidityChecks   validity;
     std::optional<Accuracy> accuracy;
   };
 

@@ -40,8 +40,9 @@ struct ContactPoint
   bool   weak     = false; ///< neither force nor gap, within tolerances
 };
 
-/// Quantities that show how far a state leaves the range of the linear model; see assumptions.h.
-struct Assumptions
+/// Quantities that show how far a state leaves the range of the linear model; see
+/// validity_checks.h.
+struct ValidityChecks
 {
   double rotation = 0.; ///< maximum over cells [rad]
   double strain   = 0.; ///< maximum over cells
@@ -116,13 +117,13 @@ struct ContactState
   unsigned int           weak_contacts   = 0;
   /// minimum of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), which is the distance from
   /// a weakly active contact; infinite without contacts
-  double        degeneracy_distance = std::numeric_limits<double>::infinity();
-  double        solved_to           = 0.; ///< relative KKT residual requested from the solver
-  double        tolerance           = 0.; ///< relative tolerance that the certificate meets
-  unsigned long f_mults             = 0;  ///< F-mults of the contact solve
-  unsigned long linear_f_mults      = 0;  ///< F-mults of a linear solve; 0: not requested
-  Certificate   certificate;
-  Assumptions   assumptions;
+  double         degeneracy_distance = std::numeric_limits<double>::infinity();
+  double         solved_to           = 0.; ///< relative KKT residual requested from the solver
+  double         tolerance           = 0.; ///< relative tolerance that the certificate meets
+  unsigned long  f_mults             = 0;  ///< F-mults of the contact solve
+  unsigned long  linear_f_mults      = 0;  ///< F-mults of a linear solve; 0: not requested
+  Certificate    certificate;
+  ValidityChecks validity;
   /// one line per body that supports and strong contacts leave free to move; the body is in
   /// equilibrium, but its position along these motions is not determined
   std::vector<std::string> free_bodies;

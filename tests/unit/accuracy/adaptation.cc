@@ -1,7 +1,7 @@
 #include <snug/accuracy/adaptation.h>
 #include <snug/accuracy/demand.h>
 #include <snug/accuracy/transfer.h>
-#include <snug/accuracy/trust.h>
+#include <snug/accuracy/underresolved_contact.h>
 #include <snug/mesh/refined_cells.h>
 #include <snug/state/contact_patches.h>
 
@@ -178,9 +178,9 @@ TEST(Trust, AsksForFacesAcrossEachPatch)
   const auto patches = state::contact_patches(problem.solver, state);
   ASSERT_EQ(patches.size(), 1u);
   const double width = patches[0].width;
-  EXPECT_DOUBLE_EQ(width, state.assumptions.width);
-  EXPECT_TRUE(accuracy::doubtful_faces(problem.solver, state, width).empty());
-  const auto faces = accuracy::doubtful_faces(problem.solver, state, width + 1.);
+  EXPECT_DOUBLE_EQ(width, state.validity.width);
+  EXPECT_TRUE(accuracy::underresolved_contact(problem.solver, state, width).empty());
+  const auto faces = accuracy::underresolved_contact(problem.solver, state, width + 1.);
   // Faces between the active nodes, those at both ends and one more beyond each of these.
   EXPECT_EQ(faces.size(), state.active_contacts + 3u);
   for (const unsigned int face : faces)
@@ -201,6 +201,6 @@ TEST(Trust, SeesTwoPatches)
   const auto patches = state::contact_patches(problem.solver, state);
   ASSERT_EQ(patches.size(), 2u);
   EXPECT_EQ(patches[0].rows.size(), patches[1].rows.size());
-  EXPECT_NEAR(state.assumptions.width, std::min(patches[0].width, patches[1].width), 1e-12);
+  EXPECT_NEAR(state.validity.width, std::min(patches[0].width, patches[1].width), 1e-12);
 }
 } // namespace snug::test

@@ -1,4 +1,5 @@
 #include <snug/advice/cost.h>
+#include <snug/mesh/surface.h>
 #include <snug/mesh/tearing.h>
 #include <snug/scene/read_scene.h>
 
@@ -32,28 +33,20 @@ scene::Scene read(const std::vector<std::string> &sets, const std::string &of = 
   return scene::read_scene({"scene.prm", of, sets, ""});
 }
 
-/// Return the counts of the mesh of a scene.
 template <int dim>
-advice::Counts made(const scene::Scene &scene)
+mesh::BodyMesh<dim> make_mesh(const scene::Scene &scene)
 {
   std::vector<geometry::BodyMeshParameters> bodies;
   for (const auto &body : scene.bodies)
     bodies.push_back(body.mesh);
-  const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, bodies, scene.degree, scene::idealization(scene),
-                                 scene.tearing);
-  advice::Counts            result;
-  result.cells      = mesh.n_global_cells();
-  result.nodes      = mesh.n_global_free_nodes();
-  result.subdomains = mesh::tear(mesh).n_global;
-  return result;
+  return mesh::BodyMesh<dim>(MPI_COMM_WORLD, bodies, scene.degree, scene::idealization(scene),
+                             scene.tearing);
 }
 
-template <int dim>
-void expect_counted(const scene::Scene &scene, const double tolerance)
+template <int dim = 3>
+advice::Counts count(const scene::Scene &scene)
 {
-  const auto expected = made<dim>(scene), found = advice::count(scene, 1);
-  EXPECT_NEAR(found.cells / expected.cells, 1., tolerance);
-  EXPECT_NEAR(found.nodes / expected.nodes, 1., tolerance);
+  return advice::count(scene, make_mesh<dim>(scene));
 }
 
 /// Two squares, one of them refined around a corner.
@@ -77,40 +70,54 @@ end
 )";
 } // namespace
 
-TEST(Count, IsThatOfEvenMeshes)
+TEST(Count, ContactRowsAreNodesOfTheFinerSide)
 {
-  expect_counted<3>(read({}), 1e-12);
-  expect_counted<3>(read({"Element degree=2"}), 1e-12);
-  expect_counted<3>(read({"Body upper/Refinements=1", "Body lower/Refinements=2"}), 1e-12);
+  EXPECT_EQ(count(read({"Body lower/Box cells=9, 8, 1"})).contact_rows, 90);
+  EXPECT_EQ(count(read({"Body lower/Box cells=9, 8, 1", "Element degree=2"})).contact_rows,
+            19 * 17);
+  EXPECT_LT(count(read({"Contact/Slave=first"})).contact_rows, 60);
+  const auto             scene = read({}, refined);
+  const auto             mesh  = make_mesh<2>(scene);
+  const mesh::Surface<2> top(mesh, {{1, geometry::boundary_index(mesh.geometry(1), "top")}});
+  EXPECT_EQ(advice::count(scene, mesh).contact_rows, top.n_nodes());
 }
 
-TEST(Count, IsNearlyThatOfMeshesRefinedLocally)
+TEST(Count, SubdomainsAreThoseOfTheTearing)
 {
-  expect_counted<2>(read({}, refined), 0.05);
-  expect_counted<2>(read({"Body lower/Refinements=2", "Body lower/Local refinements=2"}, refined),
-                    0.05);
+  for (const char *number : {"Decomposition/Subdomains=12", "Decomposition/Subdomains=auto"})
+    {
+      const auto scene = read({"Body lower/Box cells=10, 10, 10", number});
+      const auto mesh  = make_mesh<3>(scene);
+      EXPECT_EQ(advice::count(scene, mesh).subdomains, mesh::tear(mesh).n_global);
+    }
 }
 
-TEST(Count, TakesTheNodesOfTheFinerSide)
+TEST(Count, SubdomainsBySizeAreThoseOfAuto)
 {
-  EXPECT_EQ(advice::count(read({"Body lower/Box cells=9, 8, 1"}), 1).contact_rows, 90);
-  EXPECT_EQ(
-    advice::count(read({"Body lower/Box cells=9, 8, 1", "Element degree=2"}), 1).contact_rows,
-    19 * 17);
-  EXPECT_LT(advice::count(read({"Contact/Slave=first"}), 1).contact_rows, 60);
+  const std::string cells = "Body lower/Box cells=20, 20, 20";
+  const auto        given = count(read({cells, "Decomposition/Subdomains=500"})),
+             by_auto      = count(read({cells}));
+  EXPECT_GT(given.subdomains, 400.);
+  EXPECT_NEAR(given.subdomains_by_size, by_auto.subdomains, 0.1 * by_auto.subdomains);
+  EXPECT_FALSE(given.has_layers); // of the sphere
+  EXPECT_FALSE(count<2>(read({}, refined)).has_layers);
+  EXPECT_TRUE(count<2>(read({"Body lower/Local refinements=0"}, refined)).has_layers);
 }
 
-TEST(Count, HasAsManySubdomainsAsAreWantedOrRanks)
+TEST(Cost, HasAsManySubdomainsAsRanks)
 {
-  const auto scene = read({"Body lower/Box cells=10, 10, 10", "Decomposition/Subdomains=12"});
-  EXPECT_NEAR(advice::count(scene, 1).subdomains, 12., 1.);
-  EXPECT_GE(advice::count(scene, 40).subdomains, 40.);
+  const auto scene  = read({"Decomposition/Subdomains=12"});
+  const auto counts = count(scene);
+  EXPECT_LT(counts.subdomains, 40.);
+  EXPECT_GE(advice::estimate_cost(scene, counts, 40, 1.).counts.subdomains, 40.);
 }
 
 TEST(Cost, IsSharedByRanksButForWhatEachHas)
 {
-  const auto scene = read({"Body lower/Box cells=20, 20, 20"});
-  const auto one = advice::estimate_cost(scene, 1, 1.), four = advice::estimate_cost(scene, 4, 1.);
+  const auto scene  = read({"Body lower/Box cells=20, 20, 20"});
+  const auto counts = count(scene);
+  const auto one    = advice::estimate_cost(scene, counts, 1, 1.),
+             four   = advice::estimate_cost(scene, counts, 4, 1.);
   EXPECT_EQ(one.memory_total, one.memory_largest);
   EXPECT_LT(four.memory_largest, one.memory_largest);
   EXPECT_GT(four.memory_total, one.memory_total);
@@ -120,9 +127,10 @@ TEST(Cost, IsSharedByRanksButForWhatEachHas)
 
 TEST(Cost, FallsWithTheSpeedOfTheMachine)
 {
-  const auto scene = read({});
-  EXPECT_NEAR(advice::estimate_cost(scene, 1, 2.).total,
-              advice::estimate_cost(scene, 1, 1.).total / 2., 1e-12);
+  const auto scene  = read({});
+  const auto counts = count(scene);
+  EXPECT_NEAR(advice::estimate_cost(scene, counts, 1, 2.).total,
+              advice::estimate_cost(scene, counts, 1, 1.).total / 2., 1e-12);
   const double speed = advice::machine_speed();
   EXPECT_GT(speed, 1e-3); // instrumented programs are slow
   EXPECT_LT(speed, 50.);
@@ -139,8 +147,9 @@ TEST(Cost, OfOptimizationsIsThatOfTheirDesigns)
   auto                           stressed = shaped;
   stressed.insert(stressed.end(), {"Responses=s", "Response s/Quantity=von Mises norm",
                                    "Optimization/Objective=s"});
-  const auto energy = advice::estimate_cost(read(shaped), 1, 1.),
-             stress = advice::estimate_cost(read(stressed), 1, 1.);
+  const auto counts = count(read(shaped));
+  const auto energy = advice::estimate_cost(read(shaped), counts, 1, 1.),
+             stress = advice::estimate_cost(read(stressed), counts, 1, 1.);
   EXPECT_EQ(energy.n_designs, 7u);
   EXPECT_NEAR(energy.total - energy.start - energy.setup - energy.accuracy - energy.output,
               7. * energy.design, 1e-10);

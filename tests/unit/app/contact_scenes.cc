@@ -1,6 +1,6 @@
 #include <snug/app/mesh_summary.h>
 #include <snug/base/errors.h>
-#include <snug/state/assumptions.h>
+#include <snug/state/validity_checks.h>
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ TEST(FloatingBlock, TurnsUntilAWedgeIsClosed)
   EXPECT_NEAR(wedge.state.strain_energy, flat.state.strain_energy, 1e-8 * flat.state.strain_energy);
   // the load sinks by the mean gap
   EXPECT_NEAR(wedge.state.compliance - flat.state.compliance, 0.02, 1e-9);
-  EXPECT_NEAR(wedge.state.assumptions.rotation - flat.state.assumptions.rotation, 0.02, 2e-3);
+  EXPECT_NEAR(wedge.state.validity.rotation - flat.state.validity.rotation, 0.02, 2e-3);
 }
 
 TEST(Stack, CarriesTheWeightOfAllThatLiesAbove)
@@ -206,13 +206,13 @@ subsection Contact
 end
 )",
                               exact);
-  const auto          &assumptions = solved.state.assumptions;
+  const auto          &validity = solved.state.validity;
   const double         e_xx = 0.3 * 1.3 * 0.4, e_yy = -0.91 * 0.4;
-  EXPECT_NEAR(assumptions.strain, std::hypot(e_xx, e_yy), 1e-8);
-  EXPECT_NEAR(assumptions.rotation, 0., 1e-8);
-  EXPECT_NEAR(assumptions.slip, 4. * e_xx, 1e-8);
-  EXPECT_EQ(assumptions.drift, 0.);
-  const auto lines = state::warnings(assumptions);
+  EXPECT_NEAR(validity.strain, std::hypot(e_xx, e_yy), 1e-8);
+  EXPECT_NEAR(validity.rotation, 0., 1e-8);
+  EXPECT_NEAR(validity.slip, 4. * e_xx, 1e-8);
+  EXPECT_EQ(validity.drift, 0.);
+  const auto lines = state::warnings(validity);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].find("strains are up to 0.4"), 0u) << lines[0];
   EXPECT_EQ(lines[1].find("active contacts slip tangentially by up to 0.62 of a face"), 0u)
@@ -257,12 +257,12 @@ TEST(Warnings, OfOverlapUnlessItIsWanted)
 
 TEST(Warnings, OfFacetsThatContactSees)
 {
-  state::Assumptions assumptions;
-  assumptions.facet_height = 0.0049;
-  assumptions.closed_gap   = 0.1;
-  EXPECT_EQ(state::warnings(assumptions).size(), 0u);
-  assumptions.facet_height = 0.0051;
-  const auto lines         = state::warnings(assumptions);
+  state::ValidityChecks validity;
+  validity.facet_height = 0.0049;
+  validity.closed_gap   = 0.1;
+  EXPECT_EQ(state::warnings(validity).size(), 0u);
+  validity.facet_height = 0.0051;
+  const auto lines      = state::warnings(validity);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_NE(lines[0].find("facet height 0.0051 of a contact surface is 5.1 %"), std::string::npos)
     << lines[0];
@@ -288,8 +288,8 @@ TEST(Warnings, OfRefineWhereThatCatchesNothing)
 TEST(Unloaded, NothingMoves)
 {
   const SolvedScene<3> solved(two_blocks(true), {"Body upper/Pressure="});
-  EXPECT_LT(solved.state.assumptions.displacement, state::least_motion);
-  EXPECT_GT(SolvedScene<3>(two_blocks(true)).state.assumptions.displacement, 1e-4);
+  EXPECT_LT(solved.state.validity.displacement, state::least_motion);
+  EXPECT_GT(SolvedScene<3>(two_blocks(true)).state.validity.displacement, 1e-4);
 }
 
 TEST(EdgeOfTheMaster, ForcesFadeAsItShrinks)

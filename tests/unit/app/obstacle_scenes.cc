@@ -1,4 +1,4 @@
-#include <snug/state/assumptions.h>
+#include <snug/state/validity_checks.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <snug/accuracy/gap_residual.h>
-#include <snug/accuracy/trust.h>
+#include <snug/accuracy/underresolved_contact.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/state/contact_patches.h>
 
@@ -73,9 +73,9 @@ std::vector<unsigned int> faces_at(const mesh::Surface<dim> &surface,
 } // namespace
 
 template <int dim>
-std::vector<unsigned int> doubtful_faces(const state::StateSolver<dim>  &solver,
-                                         const state::ContactState<dim> &state,
-                                         const double                    across)
+std::vector<unsigned int> underresolved_contact(const state::StateSolver<dim>  &solver,
+                                                const state::ContactState<dim> &state,
+                                                const double                    across)
 {
   const auto       &surface = solver.surface();
   std::vector<bool> at_nodes(surface.n_nodes(), false);
@@ -99,7 +99,7 @@ std::vector<unsigned int> doubtful_faces(const state::StateSolver<dim>  &solver,
 }
 
 template std::vector<unsigned int>
-doubtful_faces(const state::StateSolver<2> &, const state::ContactState<2> &, double);
+underresolved_contact(const state::StateSolver<2> &, const state::ContactState<2> &, double);
 template std::vector<unsigned int>
-doubtful_faces(const state::StateSolver<3> &, const state::ContactState<3> &, double);
+underresolved_contact(const state::StateSolver<3> &, const state::ContactState<3> &, double);
 } // namespace snug::accuracy

@@ -1,5 +1,5 @@
-#ifndef snug_accuracy_trust_h
-#define snug_accuracy_trust_h
+#ifndef snug_accuracy_underresolved_contact_h
+#define snug_accuracy_underresolved_contact_h
 
 #include <snug/state/state_solver.h>
 
@@ -15,9 +15,9 @@ constexpr double small_gap = 0.1;
  * may be trusted. Collective.
  */
 template <int dim>
-std::vector<unsigned int> doubtful_faces(const state::StateSolver<dim>  &solver,
-                                         const state::ContactState<dim> &state,
-                                         double                          across);
+std::vector<unsigned int> underresolved_contact(const state::StateSolver<dim>  &solver,
+                                                const state::ContactState<dim> &state,
+                                                double                          across);
 } // namespace snug::accuracy
 
 #endif

@@ -1,5 +1,5 @@
-#ifndef snug_state_assumptions_h
-#define snug_state_assumptions_h
+#ifndef snug_state_validity_checks_h
+#define snug_state_validity_checks_h
 
 #include <snug/state/state_solver.h>
 
@@ -27,9 +27,9 @@ constexpr double absurd_overlap = 2.;
  * smooth are compared with the maximum gap or overlap of rows with a force. Collective.
  */
 template <int dim>
-Assumptions assess(const StateSolver<dim>               &solver,
-                   const std::vector<contact::Row<dim>> &contact_rows,
-                   const ContactState<dim>              &state);
+ValidityChecks check_validity(const StateSolver<dim>               &solver,
+                              const std::vector<contact::Row<dim>> &contact_rows,
+                              const ContactState<dim>              &state);
 
 /// Return whether nothing moves except by the round-off of gaps. In this case no load does work,
 /// and no prescribed displacement or overlap moves a body. Loads that are small, however small, do
@@ -37,11 +37,14 @@ Assumptions assess(const StateSolver<dim>               &solver,
 template <int dim>
 bool is_at_rest(const ContactState<dim> &state)
 {
-  return state.compliance == 0. && state.assumptions.displacement < least_motion;
+  return state.compliance == 0. && state.validity.displacement < least_motion;
 }
 
-/// Return one line for each number that is doubtful.
-std::vector<std::string> warnings(const Assumptions &assumptions);
+/// Return one line for each number beyond its limit.
+std::vector<std::string> warnings(const ValidityChecks &validity);
+
+/// Return the line about facets among the warnings; empty if the facets are below their limit.
+std::string facet_warning(const ValidityChecks &validity);
 
 /// Check the overlaps of the pairs.
 /// @throws InputError if slave nodes of a pair overlap the master by more than absurd_overlap where

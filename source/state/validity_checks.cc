@@ -1,6 +1,6 @@
 #include <snug/base/errors.h>
-#include <snug/state/assumptions.h>
 #include <snug/state/contact_patches.h>
+#include <snug/state/validity_checks.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -60,7 +60,7 @@ template <int dim>
 void assess_facets(const StateSolver<dim>               &solver,
                    const std::vector<contact::Row<dim>> &contact_rows,
                    const ContactState<dim>              &state,
-                   Assumptions                          &result)
+                   ValidityChecks                       &result)
 {
   std::vector<double> closed(solver.contact().pairs().size(), 0.);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
@@ -82,11 +82,11 @@ void assess_facets(const StateSolver<dim>               &solver,
 } // namespace
 
 template <int dim>
-Assumptions assess(const StateSolver<dim>               &solver,
-                   const std::vector<contact::Row<dim>> &contact_rows,
-                   const ContactState<dim>              &state)
+ValidityChecks check_validity(const StateSolver<dim>               &solver,
+                              const std::vector<contact::Row<dim>> &contact_rows,
+                              const ContactState<dim>              &state)
 {
-  Assumptions result;
+  ValidityChecks result;
   for (const auto &subdomain : solver.tearing().subdomains)
     for (const unsigned int cell : subdomain.cells)
       {
@@ -129,38 +129,43 @@ Assumptions assess(const StateSolver<dim>               &solver,
   return result;
 }
 
-std::vector<std::string> warnings(const Assumptions &assumptions)
+std::string facet_warning(const ValidityChecks &validity)
+{
+  if (validity.facet_height <= large_facets * validity.closed_gap)
+    return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "the facet height " << validity.facet_height << " of a contact surface is "
+       << 100. * validity.facet_height / validity.closed_gap
+       << " % of the largest gap or overlap that closes: pressures follow the facets; set "
+          "'Surface', or use a finer mesh file";
+  return text.str();
+}
+
+std::vector<std::string> warnings(const ValidityChecks &validity)
 {
   std::vector<std::string> lines;
-  if (assumptions.rotation > large_rotation)
+  if (validity.rotation > large_rotation)
     lines.push_back(
-      line("cells rotate by", assumptions.rotation, " rad", ": small rotations are assumed"));
-  if (assumptions.strain > large_strain)
-    lines.push_back(line("strains are", assumptions.strain, "", ": small strains are assumed"));
-  if (assumptions.slip > large_slip)
-    lines.push_back(line("active contacts slip tangentially by", assumptions.slip, " of a face",
+      line("cells rotate by", validity.rotation, " rad", ": small rotations are assumed"));
+  if (validity.strain > large_strain)
+    lines.push_back(line("strains are", validity.strain, "", ": small strains are assumed"));
+  if (validity.slip > large_slip)
+    lines.push_back(line("active contacts slip tangentially by", validity.slip, " of a face",
                          ": small slip is assumed"));
-  if (assumptions.drift > large_drift)
+  if (validity.drift > large_drift)
     lines.push_back(line("the design moved slave nodes away from their paired points by",
-                         assumptions.drift, " of a face", ": see 'Contact/Update pairing'"));
-  if (assumptions.width < least_width)
+                         validity.drift, " of a face", ": see 'Contact/Update pairing'"));
+  if (validity.width < least_width)
     {
       std::ostringstream text;
       text.precision(2);
-      text << "minimum number of faces across a contact: " << assumptions.width
+      text << "minimum number of faces across a contact: " << validity.width
            << ", at least 8 are recommended for accurate pressures";
       lines.push_back(text.str());
     }
-  if (assumptions.facet_height > large_facets * assumptions.closed_gap)
-    {
-      std::ostringstream text;
-      text.precision(2);
-      text << "the facet height " << assumptions.facet_height << " of a contact surface is "
-           << 100. * assumptions.facet_height / assumptions.closed_gap
-           << " % of the largest gap or overlap that closes: pressures follow the facets; set "
-              "'Surface', or use a finer mesh file";
-      lines.push_back(text.str());
-    }
+  if (const auto facets = facet_warning(validity); !facets.empty())
+    lines.push_back(facets);
   return lines;
 }
 
@@ -223,8 +228,10 @@ std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     
   return lines;
 }
 
-template Assumptions
-assess(const StateSolver<2> &, const std::vector<contact::Row<2>> &, const ContactState<2> &);
-template Assumptions
-assess(const StateSolver<3> &, const std::vector<contact::Row<3>> &, const ContactState<3> &);
+template ValidityChecks check_validity(const StateSolver<2> &,
+                                       const std::vector<contact::Row<2>> &,
+                                       const ContactState<2> &);
+template ValidityChecks check_validity(const StateSolver<3> &,
+                                       const std::vector<contact::Row<3>> &,
+                                       const ContactState<3> &);
 } // namespace snug::state
