@@ -16,7 +16,7 @@ grep -qs '^VERSION_ID="12"' /etc/os-release || run_packages+=(mold)
 
 # To test as well. GTest's CMake package refuses to load without gmock.
 # shellcheck disable=SC2034
-test_packages=(libgtest-dev libgmock-dev clang-format-19 python3-scipy)
+test_packages=(libgtest-dev libgmock-dev clang-format-19 clang-tidy python3-scipy)
 
 # One thread per rank, and more ranks than cores allowed (doc/cluster.md).
 set -a
@@ -153,12 +153,12 @@ jobs_at_once()
   echo "$jobs"
 }
 
-# compile DIRECTORY TARGET: the command of build()'s step. The progress count goes to the
+# compile DIRECTORY TARGET...: the command of build()'s step. The progress count goes to the
 # descriptor 3: on a terminal in place, else once for each tenth.
 compile()
 {
   local line tenth shown=0
-  cmake --build "$1" --target "$2" --parallel "$(jobs_at_once)" 2>&1 |
+  cmake --build "$1" --target "${@:2}" --parallel "$(jobs_at_once)" 2>&1 |
     while IFS= read -r line; do
       printf '%s\n' "$line"
       [[ $line =~ ^\[\ *([0-9]+)[/%]([0-9]*)\]\ (Building|Linking) ]] || continue
@@ -173,7 +173,7 @@ compile()
   return "${PIPESTATUS[0]}"
 }
 
-# build DIRECTORY TARGET
+# build DIRECTORY TARGET...
 build()
 {
   step "$1/build.log" "Compiling ${1##*/}" compile "$@"

@@ -69,7 +69,7 @@ private:
 
   static std::string petsc_options(const std::string &text)
   {
-    const auto trimmed = trim(text);
+    auto trimmed = trim(text);
     if (trimmed.size() < 2 || trimmed[0] != '-')
       throw InputError("option '--petsc' needs options of PETSc, as \"-NAME VALUE\", not '" + text +
                        "'" + hint());

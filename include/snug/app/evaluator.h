@@ -74,9 +74,9 @@ public:
   void pair(const Design &design);
 
   /// Let the solver at designs near @p design start from forces of each load case, n_owned x 1.
-  void start_from(const Design &design, std::vector<qp::MultiVector> forces)
+  void start_from(const Design &design, const std::vector<qp::MultiVector> &forces)
   {
-    starts.add(design, std::move(forces));
+    starts.add(design, forces);
   }
 
   /// Return the states of the first design, solved without start forces unless they are known. The

@@ -183,6 +183,33 @@ TEST(TeamFactors, AreMadeWhereTheyAreFaster)
   EXPECT_EQ(members(1000, 2), 1);
 }
 
+/// The Laplacian of a square with more rows than one rank factorizes alone, if there are 4 ranks.
+TEST(TeamFactors, SolveWhatIsTooLargeForOneRank)
+{
+  const PetscInt                     n = 160;
+  std::vector<std::vector<PetscInt>> rows(n * n);
+  const auto add_neighbours = [&](const PetscInt row, const PetscInt i, const PetscInt j) {
+    for (const auto &[k, l] : {std::pair(i - 1, j), {i, j - 1}, {i, j}, {i, j + 1}, {i + 1, j}})
+      if (k >= 0 && k < n && l >= 0 && l < n)
+        rows[row].push_back(k * n + l);
+  };
+  for (PetscInt i = 0; i < n; ++i)
+    for (PetscInt j = 0; j < n; ++j)
+      add_neighbours(i * n + j, i, j);
+  auto A = feti::CsrMatrix::from_rows(rows, n * n);
+  for (PetscInt row = 0; row < n * n; ++row)
+    for (const PetscInt column : rows[row])
+      A.values[A.position(row, column)] = row == column ? 4. : -1.;
+  const auto group = feti::coarse_group(MPI_COMM_WORLD, n * n, feti::MatrixKind::coarse, 0);
+  int        size;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  ASSERT_EQ(group != nullptr, size >= 4);
+  feti::SparseFactor factor(A, feti::MatrixKind::coarse, feti::Factorization::CHOLMOD, nullptr,
+                            group);
+  ASSERT_EQ(failure_reason(factor, A), "");
+  expect_inverse(A, factor);
+}
+
 TEST_P(Factors, UnitsAreNoErrors)
 {
   auto       K    = truss_on_springs();
