@@ -30,8 +30,9 @@ void print_end(const ShapeProblem<dim>                  &problem,
       << result.objective_final;
   for (unsigned int c = 0; c < last.size(); ++c)
     out << (last.size() == 1 ? "" : ", load case " + problem.scene.load_cases[c].name)
-        << ", peak pressure " << first[c].max_pressure << " -> " << last[c].max_pressure
-        << ", active contacts " << first[c].active_contacts << " -> " << last[c].active_contacts;
+        << ", peak pressure " << first[c]["max_pressure"].get<double>() << " -> "
+        << last[c].max_pressure << ", active contacts " << first[c]["active_contacts"] << " -> "
+        << last[c].active_contacts;
   out << std::endl;
 }
 

@@ -199,14 +199,6 @@ Results<dim>::response_values(const state::ContactState<dim> &state) const
   return result;
 }
 
-template <int dim>
-io::Summary::State Results<dim>::summarize(const state::ContactState<dim> &state) const
-{
-  auto result      = io::summarize(state);
-  result.responses = response_values(state);
-  return result;
-}
-
 /// Export the quadratic program of the first load case.
 template <int dim>
 void Results<dim>::export_first_qp(const States &states)
@@ -228,7 +220,7 @@ void Results<dim>::add_first(const States &states, const std::optional<Field> &s
   draw(0., states, shape_gradient);
   // a pairing anew ends what else there is to know of them
   for (const auto &state : states)
-    first_states.push_back(summarize(state));
+    first_states.push_back(io::summarize(state, response_values(state)));
 }
 
 /// A state is a result also where its error cannot be estimated.
@@ -263,13 +255,14 @@ void Results<dim>::add_last(const double                  time,
   // contact may be paired anew before the summary is written
   count_rows();
   const auto summarized = [&](const unsigned int c) {
-    auto result = summarize(states[c]);
-    if (errors.empty())
-      return result;
-    result.accuracy = {errors[c].energy.error, errors[c].energy.relative, {}};
-    for (const auto &[name, of_response] : errors[c].responses)
-      result.accuracy->responses.emplace_back(name, of_response.error());
-    return result;
+    std::optional<io::Summary::Accuracy> accuracy;
+    if (!errors.empty())
+      {
+        accuracy = {errors[c].energy.error, errors[c].energy.relative, {}};
+        for (const auto &[name, of_response] : errors[c].responses)
+          accuracy->responses.emplace_back(name, of_response.error());
+      }
+    return io::summarize(states[c], response_values(states[c]), accuracy);
   };
   summary.state = summarized(0);
   if (!first_states.empty())

@@ -30,52 +30,97 @@ std::vector<double> numbers(const dealii::Tensor<1, dim> &v)
 {
   return {v.begin_raw(), v.end_raw()};
 }
+
+/// Return a JSON object of names and values. Readers iterate over its keys, so it is not null if
+/// there are none.
+Summary::State object_of(const std::vector<std::pair<std::string, double>> &values)
+{
+  auto result = Summary::State::object();
+  for (const auto &[name, value] : values)
+    result[name] = value;
+  return result;
+}
+
+template <int dim>
+Summary::State summary_part(const state::PairState<dim> &pair)
+{
+  return {{"name", pair.name},
+          {"rows", pair.rows},
+          {"active_contacts", pair.active_contacts},
+          {"force", numbers(pair.force)},
+          {"moment", numbers(pair.moment)},
+          {"centre", numbers(pair.centre)},
+          {"contact_area", pair.contact_area},
+          {"max_pressure", pair.max_pressure},
+          {"peak", numbers(pair.peak)},
+          {"peak_size", pair.peak_size}};
+}
+
+template <int dim>
+Summary::State summary_part(const state::Reaction<dim> &reaction)
+{
+  return {{"name", reaction.name},
+          {"centre", numbers(reaction.centre)},
+          {"force", numbers(reaction.force)},
+          {"moment", numbers(reaction.moment)}};
+}
+
+template <typename Part>
+Summary::State array_of(const std::vector<Part> &parts)
+{
+  auto result = Summary::State::array();
+  for (const auto &part : parts)
+    result.push_back(summary_part(part));
+  return result;
+}
 } // namespace
 
-/// Copy the state. The io module has its own struct, so that keys of the file stay the same if
-/// the solver's members change.
+/// Other tools read the keys: keys may be added, but are never renamed.
 template <int dim>
-Summary::State summarize(const state::ContactState<dim> &state)
+Summary::State summarize(const state::ContactState<dim>                    &state,
+                         const std::vector<std::pair<std::string, double>> &responses,
+                         const std::optional<Summary::Accuracy>            &accuracy)
 {
-  Summary::State result;
-  result.least_scaled_jacobian = state.least_scaled_jacobian;
-  result.energy                = state.energy;
-  result.compliance            = state.compliance;
-  result.strain_energy         = state.strain_energy;
-  result.contact_force         = numbers(state.contact_force);
-  result.load                  = numbers(state.load);
-  result.balance               = numbers(state.balance);
-  result.contact_area          = state.contact_area;
-  result.max_pressure          = state.max_pressure;
-  result.active_contacts       = state.active_contacts;
-  result.weak_contacts         = state.weak_contacts;
-  result.degeneracy_distance   = state.degeneracy_distance;
-  result.outer_iterations      = state.dual.outer_iterations;
-  result.f_mults               = state.f_mults;
-  result.linear_f_mults        = state.linear_f_mults;
-  result.method                = state.dual.method;
-  result.certificate           = state.certificate;
-  result.tolerance             = state.tolerance;
-  result.validity              = state.validity;
-  for (const auto &of_pair : state.pairs)
-    {
-      Summary::Pair pair;
-      pair.name            = of_pair.name;
-      pair.rows            = of_pair.rows;
-      pair.active_contacts = of_pair.active_contacts;
-      pair.force           = numbers(of_pair.force);
-      pair.moment          = numbers(of_pair.moment);
-      pair.centre          = numbers(of_pair.centre);
-      pair.contact_area    = of_pair.contact_area;
-      pair.max_pressure    = of_pair.max_pressure;
-      pair.peak            = numbers(of_pair.peak);
-      pair.peak_size       = of_pair.peak_size;
-      result.pairs.push_back(pair);
-    }
-  for (const auto &reaction : state.reactions)
-    result.reactions.push_back(
-      {reaction.name, numbers(reaction.centre), numbers(reaction.force), numbers(reaction.moment)});
-  return result;
+  const auto    &certificate = state.certificate;
+  Summary::State linear, errors;
+  if (state.linear_f_mults > 0) // 0 means that no linear problem was solved for comparison
+    linear = state.linear_f_mults;
+  if (accuracy)
+    errors = {{"error", accuracy->error},
+              {"relative", accuracy->relative},
+              {"responses", object_of(accuracy->responses)}};
+  return {{"least_scaled_jacobian", state.least_scaled_jacobian},
+          {"energy", state.energy},
+          {"compliance", state.compliance},
+          {"strain_energy", state.strain_energy},
+          {"contact_force", numbers(state.contact_force)},
+          {"contact_area", state.contact_area},
+          {"max_pressure", state.max_pressure},
+          {"active_contacts", state.active_contacts},
+          {"weak_contacts", state.weak_contacts},
+          {"degeneracy_distance", state.degeneracy_distance},
+          {"outer_iterations", state.dual.outer_iterations},
+          {"f_mults", state.f_mults},
+          {"linear_f_mults", linear},
+          {"method", state.dual.method},
+          {"pairs", array_of(state.pairs)},
+          {"reactions", array_of(state.reactions)},
+          {"load", numbers(state.load)},
+          {"balance", numbers(state.balance)},
+          {"responses", object_of(responses)},
+          {"certificate",
+           {{"equilibrium", certificate.equilibrium},
+            {"continuity", certificate.continuity},
+            {"penetration", certificate.penetration},
+            {"negative_pressure", certificate.negative_pressure},
+            {"complementarity", certificate.complementarity}}},
+          {"tolerance", state.tolerance},
+          {"assumptions",
+           {{"rotation", state.validity.rotation},
+            {"strain", state.validity.strain},
+            {"slip", state.validity.slip},
+            {"drift", state.validity.drift}}},
+          {"accuracy", errors}};
 }
 
 namespace {
@@ -120,6 +165,10 @@ Summary::Memory collect_memory(const RunContext &context)
 
 template Summary::Mesh  summarize(const mesh::BodyMesh<2> &, const mesh::Tearing &);
 template Summary::Mesh  summarize(const mesh::BodyMesh<3> &, const mesh::Tearing &);
-template Summary::State summarize(const state::ContactState<2> &);
-template Summary::State summarize(const state::ContactState<3> &);
+template Summary::State summarize(const state::ContactState<2> &,
+                                  const std::vector<std::pair<std::string, double>> &,
+                                  const std::optional<Summary::Accuracy> &);
+template Summary::State summarize(const state::ContactState<3> &,
+                                  const std::vector<std::pair<std::string, double>> &,
+                                  const std::optional<Summary::Accuracy> &);
 } // namespace snug::io

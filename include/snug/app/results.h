@@ -95,7 +95,6 @@ private:
   /// For the summary.
   void                   count_rows();
   void                   export_first_qp(const States &states);
-  io::Summary::State     summarize(const state::ContactState<dim> &state) const;
   std::vector<MeshError> estimate(const States &states);
 
   /// Writers of one load case.

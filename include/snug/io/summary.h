@@ -7,6 +7,8 @@
 #include <snug/optimization/minimize.h>
 #include <snug/state/contact_state.h>
 
+#include <nlohmann/json.hpp>
+
 #include <limits>
 #include <optional>
 #include <string>
@@ -40,24 +42,6 @@ struct Summary
     unsigned long dual_rows = 0, contact_rows = 0, kernel_dimension = 0;
   };
 
-  /// Members are those of state::PairState.
-  struct Pair
-  {
-    std::string         name;
-    unsigned int        rows = 0, active_contacts = 0;
-    std::vector<double> force, moment, centre;
-    double              contact_area = none, max_pressure = none;
-    std::vector<double> peak;
-    double              peak_size = none;
-  };
-
-  /// Members are those of state::Reaction.
-  struct Reaction
-  {
-    std::string         name;
-    std::vector<double> centre, force, moment;
-  };
-
   /// Members are those of accuracy::EnergyEstimate, and the estimated errors of responses by name.
   struct Accuracy
   {
@@ -65,29 +49,8 @@ struct Summary
     std::vector<std::pair<std::string, double>> responses;
   };
 
-  /// Members are those of state::ContactState; linear_f_mults 0 becomes null.
-  struct State
-  {
-    double                least_scaled_jacobian = none;
-    double                energy = none, compliance = none;
-    double                strain_energy = none;
-    std::vector<double>   contact_force;
-    double                contact_area = none, max_pressure = none;
-    unsigned int          active_contacts = 0, weak_contacts = 0;
-    double                degeneracy_distance = none;
-    unsigned int          outer_iterations    = 0;
-    unsigned long         f_mults = 0, linear_f_mults = 0;
-    std::string           method; ///< method of the solver that finished
-    std::vector<Pair>     pairs;
-    std::vector<Reaction> reactions;
-    std::vector<double>   load, balance;
-    /// names and values of the scene's responses
-    std::vector<std::pair<std::string, double>> responses;
-    state::Certificate                          certificate;
-    double                  tolerance = none; ///< tolerance met by the certificate
-    state::ValidityChecks   validity;
-    std::optional<Accuracy> accuracy;
-  };
+  /// Part of a state, made by summarize().
+  using State = nlohmann::ordered_json;
 
   /// A method to compute the gradient, with its cost.
   struct GradientRow
@@ -219,8 +182,16 @@ std::string blas_warning(const Summary::Program &program);
 template <int dim>
 Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing);
 
+/**
+ * Return the part of a state. Its keys have the names of the members of state::ContactState, which
+ * gives formulas and units.
+ * @param[in] responses names and values of the scene's responses.
+ * @param[in] accuracy estimated errors, if there are any.
+ */
 template <int dim>
-Summary::State summarize(const state::ContactState<dim> &state);
+Summary::State summarize(const state::ContactState<dim>                    &state,
+                         const std::vector<std::pair<std::string, double>> &responses = {},
+                         const std::optional<Summary::Accuracy>            &accuracy  = {});
 
 /// Return the memory of all ranks up to the call. Collective.
 Summary::Memory collect_memory(const RunContext &context);
