@@ -49,12 +49,12 @@ Counts count(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
                                ? std::max(slave, count_nodes(scene, mesh, pair.master))
                                : slave;
     }
-  std::set<unsigned int> parts;
-  std::vector<double>    sums(2 * mesh.n_bodies() + 1, 0.); // cells, hanging nodes, subdomains
+  std::set<std::pair<unsigned int, unsigned int>> parts; // parts are numbered body by body
+  std::vector<double> sums(2 * mesh.n_bodies() + 1, 0.); // cells, hanging nodes, subdomains
   for (const auto &cell : mesh.cells())
     {
       sums[2 * cell.body] += 1.;
-      parts.insert(cell.part);
+      parts.insert({cell.body, cell.part});
     }
   for (const auto &hanging : mesh.hanging())
     sums[2 * mesh.body_of_node(hanging.node) + 1] += 1.;
