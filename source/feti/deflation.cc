@@ -14,15 +14,6 @@ namespace {
 /// the span of the others.
 const double shift = 1e-12;
 
-/// Add B' times the columns of @p local to @p y. Rows of @p local are local rows, rows of @p y are
-/// the unknowns as numbered in @p B.
-void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &local, qp::MultiVector &y)
-{
-  for (unsigned int k = 0; k < y.n_columns(); ++k)
-    for (const BEntry &entry : B)
-      y(entry.dof, k) += entry.value * local(entry.row, k);
-}
-
 /// Add the rows of @p x to the rows @p numbers of @p a.
 void add_to_rows(const std::vector<unsigned int> &numbers,
                  const qp::MultiVector           &x,
@@ -365,12 +356,7 @@ void Deflation::coarse_correction(qp::MultiVector &lambda, qp::MultiVector &resi
   qp::MultiVector jumps(layout.n_local(), lambda.n_columns()); // F C y
   for (unsigned int s = 0; s < parts.size(); ++s)
     if (const auto &ids = structure.parts[s].ids; !ids.empty())
-      {
-        const auto motions = times(parts[s].X, rows_of(y, ids));
-        for (unsigned int k = 0; k < lambda.n_columns(); ++k)
-          for (const BEntry &entry : parts[s].B)
-            jumps(entry.row, k) += entry.value * motions(entry.dof, k);
-      }
+      add_product(parts[s].B, times(parts[s].X, rows_of(y, ids)), jumps);
   residual.add(-1., layout.to_owned(jumps));
 }
 } // namespace snug::feti

@@ -79,7 +79,7 @@ void Linearization::FetiFreeSet::minimize_over_deflated(qp::MultiVector &lambda,
 qp::MultiVector Linearization::FetiFreeSet::precondition(const qp::MultiVector &r) const
 {
   qp::MultiVector z = r;
-  if (feti.operators.parameters.preconditioner == Preconditioner::none)
+  if (feti.structure.parameters.preconditioner == Preconditioner::none)
     {
       restrict(z);
       return z;

@@ -14,34 +14,9 @@ std::string name_of_subdomain(const SubdomainTable &table, unsigned int id)
   return "the stiffness of subdomain " + std::to_string(id) + " of body " +
          table.body_names[table.body[id]];
 }
-
-/// Add B x to y for one subdomain. y has the local rows of the rank, x the unknowns of the
-/// subdomain.
-void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
-{
-  for (unsigned int j = 0; j < x.n_columns(); ++j)
-    {
-      const double *from = x.column(j);
-      double       *to   = y.column(j);
-      for (const BEntry &entry : B)
-        to[entry.row] += entry.value * from[entry.dof];
-    }
-}
-
-/// Add B' x to y.
-void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y)
-{
-  for (unsigned int j = 0; j < x.n_columns(); ++j)
-    {
-      const double *from = x.column(j);
-      double       *to   = y.column(j);
-      for (const BEntry &entry : B)
-        to[entry.dof] += entry.value * from[entry.row];
-    }
-}
 } // namespace
 
-bool Operators::seeks_soft_modes(const std::vector<SubdomainSystem> &systems) const
+bool DualStructure::seeks_soft_modes(const std::vector<SubdomainSystem> &systems) const
 {
   if (parameters.preconditioner == Preconditioner::none ||
       parameters.soft_modes == SoftModesOf::none)
@@ -52,12 +27,12 @@ bool Operators::seeks_soft_modes(const std::vector<SubdomainSystem> &systems) co
   return dealii::Utilities::MPI::logical_or(slender, layout.communicator());
 }
 
-Linearization::Linearization(const Operators                          &the_operators,
+Linearization::Linearization(const DualStructure                      &the_structure,
                              const std::vector<SubdomainSystem>       &the_systems,
                              ConstraintRows                            B,
                              FactorsOfSubdomains                       factors,
                              std::shared_ptr<const DeflationStructure> soft_modes)
-  : operators(the_operators)
+  : structure(the_structure)
   , systems(the_systems)
   , rows(std::move(B))
   , subdomain_factors(std::move(factors))
@@ -70,18 +45,18 @@ Linearization::Linearization(const Operators                          &the_opera
     const RunContext::Timer timer(context(), "solve");
     entries = gather_entries();
     // G and G G' follow B, 1/D and their products with R.
-    coarse_space = std::make_unique<CoarseSpace>(operators.coarse, entries, 2, systems);
+    coarse_space = std::make_unique<CoarseSpace>(structure.coarse, entries, 2, systems);
     throw_collectively(context().communicator(), [&]() {
-      gram = std::make_unique<RowGram>(operators.gram, entries, 2 + table().n_modes);
+      gram = std::make_unique<RowGram>(structure.gram, entries, 2 + table().n_modes);
     });
     weight_rows();
   }
   const RunContext::Timer timer(context(), "soft modes");
   if (!modes)
-    modes = std::make_shared<const DeflationStructure>(operators.coarse,
+    modes = std::make_shared<const DeflationStructure>(structure.coarse,
                                                        narrow<unsigned int>(systems.size()),
                                                        find_soft_modes(entries),
-                                                       operators.parameters.coarse_ranks);
+                                                       structure.parameters.coarse_ranks);
   if (modes->n_vectors > 0)
     deflation = std::make_unique<Deflation>(*modes, systems, rows, subdomain_factors);
 }
@@ -96,8 +71,8 @@ void Linearization::factorize()
       if (!subdomain_factors[s])
         subdomain_factors[s] =
           std::make_shared<const SubdomainFactors>(systems[s], rows[s],
-                                                   operators.parameters.preconditioner,
-                                                   operators.cache,
+                                                   structure.parameters.preconditioner,
+                                                   structure.cache,
                                                    name_of_subdomain(table(), table().first + s));
   });
 }
@@ -124,7 +99,7 @@ std::vector<double> Linearization::gather_entries()
         double *entry = &gathered[std::size_t(e) * width];
         // Use diag K also for scaling by multiplicity, because F_diagonal must be a compliance.
         F_diagonal[row] += entry[0] * entry[0] * entry[1];
-        if (operators.parameters.scaling != Scaling::stiffness)
+        if (structure.parameters.scaling != Scaling::stiffness)
           entry[1] = 1.;
       }
   return gathered;
@@ -132,14 +107,14 @@ std::vector<double> Linearization::gather_entries()
 
 void Linearization::weight_rows()
 {
-  if (operators.parameters.preconditioner == Preconditioner::none)
+  if (structure.parameters.preconditioner == Preconditioner::none)
     return;
   weighted_B = rows;
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (BEntry &entry : weighted_B[s])
       {
         // B D^-1 is numbered by the unknowns of the Schur complement.
-        if (operators.parameters.scaling == Scaling::stiffness)
+        if (structure.parameters.scaling == Scaling::stiffness)
           entry.value *= 1. / systems[s].K.diagonal(entry.dof);
         entry.dof = subdomain_factors[s]->schur->boundary_position()[entry.dof];
       }
@@ -149,7 +124,7 @@ void Linearization::weight_rows()
 std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> &entries) const
 {
   std::vector<RowForces> forces;
-  if (!operators.seeks_soft_modes(systems))
+  if (!structure.seeks_soft_modes(systems))
     return forces;
   const unsigned int first   = table().first;
   const auto         columns = jump_operator(layout(), *gram, entries, 2 + table().n_modes, first,
@@ -238,7 +213,7 @@ qp::MultiVector Linearization::rigid_part(const PrimalVectors &b) const
       for (unsigned int mode = 0; mode < m; ++mode)
         for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
           result((table().first + s) * m + mode, j) += systems[s].R(i, mode) * b[s](i, j);
-  operators.coarse.sum(result);
+  structure.coarse.sum(result);
   return result;
 }
 

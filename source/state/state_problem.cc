@@ -101,12 +101,12 @@ void StateProblem<dim>::glue(const Field &positions)
 {
   forget();
   soft_modes.reset();
-  operators.reset();
+  structure.reset();
   gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows(positions));
-  operators =
-    std::make_unique<const feti::Operators>(gluing->layout(),
-                                            subdomain_table(mesh, tearing, model.body_names),
-                                            model.feti, factor_cache);
+  structure =
+    std::make_unique<const feti::DualStructure>(gluing->layout(),
+                                                subdomain_table(mesh, tearing, model.body_names),
+                                                model.feti, factor_cache);
   pairs_of_rows = {{}, narrow<unsigned int>(contact->pairs().size()), dim};
   for (const unsigned int i : gluing->contact_of_row())
     pairs_of_rows.of_row.push_back(i < contact->n_rows() ? contact->places()[i].pair
@@ -239,7 +239,7 @@ void StateProblem<dim>::linearize(const Field &positions)
   feti::ConstraintRows B(systems.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     gluing->fill_B(s, present.rows, B[s]);
-  linearization     = std::make_unique<const feti::Linearization>(*operators, systems, std::move(B),
+  linearization     = std::make_unique<const feti::Linearization>(*structure, systems, std::move(B),
                                                                   std::move(factors), soft_modes);
   soft_modes        = linearization->soft_modes();
   present.positions = positions;
@@ -250,7 +250,7 @@ void StateProblem<dim>::set(const Field &positions, const unsigned int load_case
 {
   // Find the soft modes at the positions of the pairing, and not at those at which states happen to
   // be requested, so that a run that was interrupted finds the same soft modes again.
-  if (!soft_modes && operators->seeks_soft_modes(systems))
+  if (!soft_modes && structure->seeks_soft_modes(systems))
     linearize(paired_at);
   linearize(positions);
   if (loaded_problems[load_case])

@@ -29,8 +29,8 @@ Torn::Torn(const state::StateSolver<3> &solver,
   , dual(dual)
   , context(context)
   , cache(solver.model().feti.factorization, context)
-  , operators(solver.gluing().layout(), subdomain_table(solver), solver.model().feti, cache)
-  , soft_modes(std::make_shared<const feti::DeflationStructure>(operators.coarse,
+  , structure(solver.gluing().layout(), subdomain_table(solver), solver.model().feti, cache)
+  , soft_modes(std::make_shared<const feti::DeflationStructure>(structure.coarse,
                                                                 unsigned(dual.loads().size()),
                                                                 std::vector<feti::RowForces>(),
                                                                 1))
@@ -46,7 +46,7 @@ void Torn::linearize(feti::FactorsOfSubdomains factors)
   problem.reset();
   linearization.reset();
   const auto &now = dual.linearization();
-  linearization   = std::make_unique<feti::Linearization>(operators, now.subdomains(), now.B(),
+  linearization   = std::make_unique<feti::Linearization>(structure, now.subdomains(), now.B(),
                                                           std::move(factors), soft_modes);
   problem = std::make_unique<feti::LoadedProblem>(*linearization, dual.loads(), dual.g(), &pairs);
 }

@@ -50,7 +50,7 @@ private:
   const feti::LoadedProblem                      &dual; ///< whose systems, loads and gaps are taken
   RunContext                                     &context;
   const feti::FactorCache                         cache;
-  const feti::Operators                           operators;
+  const feti::DualStructure                       structure;
   std::shared_ptr<const feti::DeflationStructure> soft_modes; ///< none
   feti::ContactPairs                              pairs;      ///< there is one pair
   std::unique_ptr<feti::Linearization>            linearization;

@@ -2,7 +2,7 @@
 #define snug_feti_linearization_h
 
 #include <snug/feti/deflation.h>
-#include <snug/feti/operators.h>
+#include <snug/feti/dual_structure.h>
 
 #include <memory>
 
@@ -20,25 +20,25 @@ class Linearization
 {
 public:
   /**
-   * Factorize the subdomains, update G, G G' and B D^-1 B', and deflate by the soft modes. All
+   * Factorize the subdomains, compute G, G G' and B D^-1 B', and deflate by the soft modes. All
    * references must outlive this object, and the systems must not change. Collective.
    * @param[in] B of the subdomains of this rank.
    * @param[in] factors of the subdomains of this rank; null: to be factorized.
    * @param[in] soft_modes of the pairing; null: they are found with these matrices if
-   *   Operators::seeks_soft_modes().
+   *   DualStructure::seeks_soft_modes().
    * @throws SolveError where a matrix is not positive definite.
    */
-  Linearization(const Operators                          &operators,
+  Linearization(const DualStructure                      &structure,
                 const std::vector<SubdomainSystem>       &systems,
                 ConstraintRows                            B,
                 FactorsOfSubdomains                       factors,
                 std::shared_ptr<const DeflationStructure> soft_modes);
 
-  RunContext                         &context() const { return operators.cache.context; }
-  const RowLayout                    &layout() const { return operators.layout; }
+  RunContext                         &context() const { return structure.cache.context; }
+  const RowLayout                    &layout() const { return structure.layout; }
   unsigned int                        n_owned() const { return layout().n_owned(); }
   const qp::RowSet                   &bounded() const { return layout().bounded(); }
-  const SubdomainTable               &table() const { return operators.coarse.table; }
+  const SubdomainTable               &table() const { return structure.coarse.table; }
   const std::vector<SubdomainSystem> &subdomains() const { return systems; }
   const ConstraintRows               &B() const { return rows; }
 
@@ -94,7 +94,7 @@ private:
   void                   precondition(qp::MultiVector &x) const;
   unsigned int           n_columns(const PrimalVectors &v) const;
 
-  const Operators                    &operators;
+  const DualStructure                &structure;
   const std::vector<SubdomainSystem> &systems;
   const ConstraintRows                rows;
   FactorsOfSubdomains                 subdomain_factors;

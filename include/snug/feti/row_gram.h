@@ -33,8 +33,8 @@ struct RowGramStructure
 
 /**
  * The Gram matrix @f$W_M = B_M D^{-1} B_M^T@f$ of the rows of B on the owned rows. It corrects the
- * preconditioner where rows are not orthonormal: stiffness scaling, node-to-face rows, supports at
- * contact nodes. Rows coupled to contact rows are factorized per face, the other rows once per
+ * preconditioner where rows are not orthonormal: stiffness scaling, and contact rows that share
+ * nodes. Rows coupled to contact rows are factorized per face, the other rows once per
  * design. Rows outside M are replaced by rows of the identity.
  */
 class RowGram

@@ -38,6 +38,12 @@ struct SubdomainSystem
 /// B of the subdomains of this rank: gluing, support and contact rows, n_rows x n each.
 using ConstraintRows = std::vector<std::vector<BEntry>>;
 
+/// Add B x to @p y for one subdomain. y has local rows, x the unknowns as numbered in @p B.
+void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y);
+
+/// Add B' x to @p y for one subdomain. x has local rows, y the unknowns as numbered in @p B.
+void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y);
+
 /// Primal vectors: one multi-vector per subdomain of this rank.
 using PrimalVectors = std::vector<qp::MultiVector>;
 } // namespace snug::feti

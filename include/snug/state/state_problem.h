@@ -20,8 +20,8 @@ struct Geometry
 };
 
 /**
- * This class is the state problem of Total FETI. Topology, pairing, gluing and symbolic
- * factorizations are made once, at the geometry given to the constructor. set() computes the
+ * This class is the state problem of Total FETI. Patterns of the matrices are made once, pairing
+ * and gluing by the constructor and again by pair(). set() computes the
  * matrices and loads of a geometry, which this class keeps until the next geometry. The public
  * members are the parts of the problem, for reading only.
  */
@@ -42,9 +42,10 @@ public:
   void pair(const Field &positions);
 
   /**
-   * Make @p positions the present geometry, and a load case one of its loaded problems. Only
-   * subdomains whose nodes moved since the last call are assembled and factorized. Collective.
-   * @throws TangledMesh; SolveError where held displacements press bodies into another.
+   * Compute the matrices at @p positions and the dual problem of a load case, unless they are
+   * known. Only subdomains whose nodes moved since the last call are assembled and factorized.
+   * Collective.
+   * @throws TangledMesh; SolveError where prescribed displacements press bodies into one another.
    */
   void set(const Field &positions, unsigned int load_case);
 
@@ -73,7 +74,7 @@ public:
   std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
   std::vector<feti::SubdomainSystem>                   systems;
   feti::FactorCache                                    factor_cache;
-  std::unique_ptr<const feti::Operators>               operators; ///< of the pairing
+  std::unique_ptr<const feti::DualStructure>           structure; ///< of the pairing
 
 private:
   void                glue(const Field &positions);

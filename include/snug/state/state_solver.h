@@ -75,7 +75,7 @@ public:
   }
   const Gluing<dim> &gluing() const { return *problem->gluing; }
   /// Return the number of rigid body modes of all subdomains.
-  unsigned int n_kernel() const { return problem->operators->coarse.table.n_kernel(); }
+  unsigned int n_kernel() const { return problem->structure->coarse.table.n_kernel(); }
   RunContext  &context() const { return problem->context; }
 
 private:

@@ -59,7 +59,7 @@ private:
   feti::PrimalVectors                  loads;
   std::unique_ptr<RunContext>          context;
   std::unique_ptr<feti::FactorCache>   cache;
-  std::unique_ptr<feti::Operators>     operators;
+  std::unique_ptr<feti::DualStructure> structure;
   std::unique_ptr<feti::Linearization> linearization;
   std::ostringstream                   log;
 
@@ -201,7 +201,7 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
   std::vector<std::vector<feti::RowLayout::Entry>> entries;
   std::vector<unsigned int>                        ids;
   linearization.reset();
-  operators.reset();
+  structure.reset();
   cache.reset();
   mine.clear();
   loads.clear();
@@ -229,12 +229,12 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
                               B(entry.global_row, start[ids[k]] + entry.dof)});
   context   = std::make_unique<RunContext>(MPI_COMM_WORLD, log);
   cache     = std::make_unique<feti::FactorCache>(parameters.factorization, *context);
-  operators = std::make_unique<feti::Operators>(*layout, table, parameters, *cache);
+  structure = std::make_unique<feti::DualStructure>(*layout, table, parameters, *cache);
   qp::MultiVector gap(layout->n_owned());
   for (unsigned int i = 0; i < gap.n_rows(); ++i)
     gap(i) = layout->bounded()[i] ? 0.01 : 0.;
   linearization =
-    std::make_unique<feti::Linearization>(*operators, mine, std::move(rows_of_B),
+    std::make_unique<feti::Linearization>(*structure, mine, std::move(rows_of_B),
                                           feti::FactorsOfSubdomains(mine.size()), nullptr);
   return std::make_unique<feti::LoadedProblem>(*linearization, loads, gap);
 }

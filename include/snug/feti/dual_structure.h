@@ -1,5 +1,5 @@
-#ifndef snug_feti_operators_h
-#define snug_feti_operators_h
+#ifndef snug_feti_dual_structure_h
+#define snug_feti_dual_structure_h
 
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/factor_cache.h>
@@ -7,15 +7,15 @@
 #include <snug/feti/row_gram.h>
 
 namespace snug::feti {
-/// This struct is the part of Total FETI that depends on the pairing alone: the layout of the rows,
-/// the structure of coarse vectors, and the patterns of G G' and B D^-1 B'.
-struct Operators
+/// This struct is the part of the dual problem that depends on the pairing alone: the layout of the
+/// rows, the structure of coarse vectors, and the patterns of G G' and B D^-1 B'.
+struct DualStructure
 {
   /// Build the patterns. @p the_layout and @p the_cache must outlive this object. Collective.
-  Operators(const RowLayout      &the_layout,
-            const SubdomainTable &table,
-            const FetiParameters &the_parameters,
-            const FactorCache    &the_cache)
+  DualStructure(const RowLayout      &the_layout,
+                const SubdomainTable &table,
+                const FetiParameters &the_parameters,
+                const FactorCache    &the_cache)
     : layout(the_layout)
     , parameters(the_parameters)
     , cache(the_cache)
