@@ -265,12 +265,15 @@ std::string seconds_text(const double seconds)
 
 void print(const Cost &cost, const bool stages, std::ostream &out)
 {
-  const auto whole = [](const double number) { return std::llround(number); };
-  out << "estimate: " << whole(cost.counts.cells) << " cells, "
-      << whole(cost.dimension * cost.counts.nodes) << " unknowns, at most "
-      << whole(cost.counts.contact_rows) << " contact constraints, "
-      << whole(cost.counts.subdomains) << " subdomains\nestimate: " << whole(cost.memory_total)
-      << " MB";
+  const auto whole      = [](const double number) { return std::llround(number); };
+  const auto counted_as = [](const double number, const char *noun) {
+    return counted(static_cast<std::size_t>(std::llround(number)), noun);
+  };
+  out << "estimate: " << counted_as(cost.counts.cells, "cell") << ", "
+      << counted_as(cost.dimension * cost.counts.nodes, "unknown") << ", at most "
+      << counted_as(cost.counts.contact_rows, "contact constraint") << ", "
+      << counted_as(cost.counts.subdomains, "subdomain")
+      << "\nestimate: " << whole(cost.memory_total) << " MB";
   if (cost.ranks > 1)
     out << " on " << cost.ranks << " ranks, " << whole(cost.memory_largest) << " MB on one";
   out << ", " << seconds_text(cost.total);
