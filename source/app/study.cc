@@ -71,7 +71,8 @@ void print_details(std::ostream &out, const state::ContactState<dim> &state)
   for (const auto &reaction : state.reactions)
     out << "  support " << reaction.name << ": force (" << reaction.force << "), moment ("
         << moment_text<dim>(reaction.moment) << ") about (" << reaction.centre << ")\n";
-  out << "sum of loads (" << state.load << "), including reactions (" << state.balance << ")\n";
+  out << "sum of loads (" << state.load << "), with reactions and obstacle forces ("
+      << state.balance << ")\n";
   out << state.dual.method << ": " << counted(state.dual.outer_iterations, "outer iteration")
       << ", " << counted(state.f_mults, "F-mult") << '\n';
   print_certificate(out, state);

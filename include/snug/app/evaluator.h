@@ -28,9 +28,9 @@ struct DesignValues
 };
 
 /**
- * The optimization problem of a scene: the objective and the constraints with their gradients as
- * functions of the design. The solver starts from forces extrapolated from earlier designs, which
- * changes values within the tolerance of the solver only.
+ * This class evaluates the designs of a scene: the objective and the constraints with their
+ * gradients as functions of the design. The solver starts from forces extrapolated from earlier
+ * designs, which changes values within the tolerance of the solver only.
  */
 template <int dim>
 class Evaluator
@@ -40,8 +40,8 @@ public:
   using States = typename ShapeProblem<dim>::States;
 
   /// Read the constraints. @p paired is the design at which @p problem has searched contact. The
-  /// first design is solved, with a contact search of its own, if a limit or the scale of 'worst'
-  /// is relative to it. Collective.
+  /// first design is solved, with a contact search of its own, if a limit is relative to its value
+  /// or if `Combine` = worst, which is scaled by its values. Collective.
   Evaluator(ShapeProblem<dim> &problem, const Design &paired);
 
   /// Return the values, without gradients. Collective. @throws TangledMesh, SolveError.
@@ -70,7 +70,8 @@ public:
   /// Return the objective and the constraints of @p states. Collective.
   DesignValues values(const States &states) const;
 
-  /// Run a new contact search at @p design, which ends all states from before. Collective.
+  /// Run a new contact search at @p design, after which earlier states are invalid.
+  /// Collective.
   void pair(const Design &design);
 
   /// Let the solver at designs near @p design start from forces of each load case, n_owned x 1.
@@ -79,14 +80,14 @@ public:
     starts.add(design, forces);
   }
 
-  /// Return the states of the first design, solved without start forces unless they are known. The
-  /// last contact search must have been at the first design. Collective.
+  /// Return the states of the first design. They are solved from cold starts if they are not known.
+  /// The last contact search must have been at the first design. Collective.
   const States &first_states();
 
   /// Return whether the contact forces and areas of a design are used as linear functions of the
   /// variables, see predicted(). They are if the objective or a constraint depends on the state by
-  /// these alone, and `Gradient/Method` is direct or auto, there with at most most_predicted
-  /// variables.
+  /// these alone, and if `Gradient/Method` is direct, or is auto and there are at most
+  /// most_predicted variables.
   bool                          is_predicted() const;
   static constexpr unsigned int most_predicted = 60;
 

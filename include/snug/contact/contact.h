@@ -81,7 +81,8 @@ public:
   const std::vector<Matching> &matchings() const { return matching_of; }
   unsigned int                 n_rows() const { return row_places.size(); }
   const std::vector<RowPlace> &places() const { return row_places; }
-  /// Return the shared nodes of all groups, with row indices that count through all groups.
+  /// Return the slave nodes without a row of their own, with the rows that act for them. Row
+  /// indices count through all groups.
   const std::vector<DependentMultiplier> &dependent_multipliers() const { return shared; }
 
   std::vector<Row<dim>> rows(const Field &positions) const;
@@ -99,6 +100,9 @@ public:
   std::unique_ptr<PointGaps<dim>>
   point_gaps(unsigned int p, const Field &positions, const faces::HeldDirections<dim> &held) const;
 
+  /// Return the gaps of each joined pair at the contact search.
+  const std::vector<PairedGaps> &paired_gaps() const { return gaps; }
+
   /// @name Motions along the master that the rows do not constrain, as fractions of the size of the
   /// slave node's largest face
   /// @{
@@ -113,8 +117,6 @@ public:
   /// follows the node.
   std::vector<double> pairing_drifts(const Field                 &positions,
                                      const std::vector<Row<dim>> &rows) const;
-  /// Return the gaps of each pair at its pairing.
-  const std::vector<PairedGaps> &paired_gaps() const { return gaps; }
   /// @}
 
 private:

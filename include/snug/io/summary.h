@@ -77,7 +77,8 @@ struct Summary
   struct Gain
   {
     double initial = none, initial_error = none, final = none, final_error = none;
-    bool   counts = false; ///< whether the gain is larger than the error at the last design
+    /// whether the gain is larger than the error at the last design
+    bool counts = false;
   };
 
   struct Optimization : optimization::OptimizationResult

@@ -99,7 +99,8 @@ public:
   /// Return e, one column with n_kernel rows, equal on all ranks.
   virtual const MultiVector &e() const = 0;
 
-  /// Return positive estimates of F_ii in its units [displacement / force].
+  /// Return positive estimates of F_ii in its units [displacement / force]. They may be much lower
+  /// than F_ii.
   virtual const std::vector<double> &diagonal() const = 0;
 
   /// Return F x. Collective. Counts x.n_columns F-mults.
