@@ -48,10 +48,11 @@ private:
 /// step may need the values of the steps before.
 template <int dim>
 std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
+                                 const unsigned int             load_case,
                                  const unsigned int             pair,
                                  const std::vector<double>     &of_rows)
 {
-  const auto         &contact = solver.contact();
+  const auto         &contact = solver.contact(load_case);
   const auto         &surface = solver.surface();
   std::vector<double> values(surface.n_nodes(), 0.);
   std::vector<bool>   has_row(values.size(), false);
@@ -77,23 +78,27 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
 }
 
 template <int dim>
-ContactPressure<dim>::ContactPressure(const state::StateSolver<dim> &solver,
-                                      const mesh::Field<dim>        &local_positions,
-                                      const std::vector<double>     &of_rows)
+ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>  &solver,
+                                      const state::ContactState<dim> &state,
+                                      const std::vector<double>      &of_rows)
   : solver(solver)
-  , positions(solver.surface().gather(local_positions))
+  , load_case(state.load_case)
+  , positions(
+      solver.contact(load_case).placed_surface().to_space(solver.surface().gather(state.positions)))
   , shape(solver.mesh().degree())
 {
-  const auto &surface = solver.surface();
-  AssertDimension(of_rows.size(), solver.contact().n_rows());
-  for (const auto &pair : solver.contact().pairs())
+  const auto &contact = solver.contact(load_case);
+  const auto &surface = contact.placed_surface().surface();
+  AssertDimension(of_rows.size(), contact.n_rows());
+  for (const auto &pair : contact.pairs())
     {
       for (const auto &boundary : pair.slave.boundaries())
         slave_of[boundary].push_back(pairs.size());
       for (const auto &boundary : pair.master.boundaries())
         master_of[boundary].push_back(pairs.size());
-      pairs.push_back(std::make_unique<SlaveSide>(surface, pair, positions, shape,
-                                                  nodal_values(solver, pairs.size(), of_rows)));
+      pairs.push_back(
+        std::make_unique<SlaveSide>(surface, pair, positions, shape,
+                                    nodal_values(solver, load_case, pairs.size(), of_rows)));
     }
 }
 
@@ -135,14 +140,18 @@ double ContactPressure<dim>::value(const Face                   &face,
     }
   if (const auto masters = master_of.find(boundary); masters != master_of.end())
     for (const unsigned int pair : masters->second)
-      sum += pairs[pair]->at(x);
+      sum += pairs[pair]->at(solver.motion(load_case, face.body).point(x));
   return sum;
 }
 
-template std::vector<double>
-nodal_values(const state::StateSolver<2> &, unsigned int, const std::vector<double> &);
-template std::vector<double>
-nodal_values(const state::StateSolver<3> &, unsigned int, const std::vector<double> &);
+template std::vector<double> nodal_values(const state::StateSolver<2> &,
+                                          unsigned int,
+                                          unsigned int,
+                                          const std::vector<double> &);
+template std::vector<double> nodal_values(const state::StateSolver<3> &,
+                                          unsigned int,
+                                          unsigned int,
+                                          const std::vector<double> &);
 template class ContactPressure<2>;
 template class ContactPressure<3>;
 } // namespace snug::accuracy

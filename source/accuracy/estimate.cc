@@ -62,7 +62,7 @@ public:
            const std::vector<const response::Response<dim> *> &responses,
            const sensitivity::Solves                           solves,
            const double                                        tolerance)
-    : solver(solver), column(responses.size(), responses.size())
+    : solver(solver), load_case(state.load_case), column(responses.size(), responses.size())
   {
     std::vector<response::Partials<dim>> partials;
     for (unsigned int j = 0; j < responses.size(); ++j)
@@ -94,10 +94,11 @@ public:
     z.displacement =
       sum(mesh::owners_values(solver.mesh(), state::nodal_values(solver, continuous, column[j])),
           -derivative.stiffness, u.displacement);
-    const auto forces = solver.gluing().gather_contact(dual.column(column[j]));
+    const auto &gluing = solver.gluing(load_case);
+    const auto  forces = gluing.gather_contact(dual.column(column[j]));
     for (unsigned int i = 0; i < forces.size(); ++i)
       {
-        const double scale = solver.gluing().contact_scales()[i];
+        const double scale = gluing.contact_scales()[i];
         z.pressures.push_back(scale > 0. ? pressure(forces[i] / scale, areas[i]) : 0.);
       }
     z.loads = derivative.load;
@@ -115,6 +116,7 @@ public:
 
 private:
   const state::StateSolver<dim> &solver;
+  const unsigned int             load_case;
   std::vector<unsigned int>      column; ///< column of each response that needs one
   std::vector<double>            areas;  ///< areas of the contact rows
   qp::MultiVector                dual;
@@ -305,7 +307,8 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
       const bool is_linear = solver.mesh().degree() == 1;
       if (is_linear && place[j] > 0)
         one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
-      if (const auto read = responses[j]->measured(solver, gaps.pressures(all[0].pressures)))
+      if (const auto read =
+            responses[j]->measured(solver, state.load_case, gaps.pressures(all[0].pressures)))
         {
           const double value = responses[j]->value(solver, state);
           (is_linear ? one.contact : one.reading) += *read - value;

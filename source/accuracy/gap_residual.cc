@@ -30,19 +30,21 @@ dealii::Tensor<1, dim> sum(const std::vector<std::pair<unsigned int, double>> &w
 template <int dim>
 GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                               const state::ContactState<dim> &state)
-  : solver(solver), positions(solver.surface().gather(state.positions))
+  : solver(solver), load_case(state.load_case), positions(solver.surface().gather(state.positions))
 {
-  const auto                   &mesh    = solver.mesh();
-  const auto                   &surface = solver.surface();
-  const auto                   &contact = solver.contact();
-  const auto                    held    = solver.held().directions(surface, state.positions);
-  const auto                    u       = surface.gather(state.displacement);
-  const auto                    here    = mesh::owners_values(mesh, state.positions);
+  const auto &mesh    = solver.mesh();
+  const auto &surface = solver.surface();
+  const auto &contact = solver.contact(load_case);
+  const auto &placed  = contact.placed_surface();
+  const auto  x       = placed.to_space(positions);
+  const auto  held    = placed.turned(solver.held().directions(surface, state.positions));
+  const auto  u       = placed.turned(surface.gather(state.displacement));
+  const auto  here    = mesh::owners_values(mesh, state.positions);
   const faces::FaceShape<dim>   shape(mesh.degree());
   const dealii::QGauss<dim - 1> gauss(n_gauss);
   for (unsigned int p = 0; p < contact.pairs().size(); ++p)
     {
-      const auto gaps = contact.point_gaps(p, positions, held);
+      const auto gaps = contact.point_gaps(p, x, held);
       for (const auto &face : mesh.boundary_faces())
         if (contact::is_on(face, contact.pairs()[p].slave))
           for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -66,7 +68,8 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                   area_vector = faces::area_vector(
                     faces::tangents<dim>(on_surface, face.samples, state.positions));
                 }
-              const auto gap = gaps->at(place, point.shape);
+              const auto gap =
+                gaps->at(solver.motion(load_case, face.body).point(place), point.shape);
               if (!gap)
                 continue;
               point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();
@@ -79,7 +82,7 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
     }
 }
 
-/// Return n . [v].
+/// Return n . [v] of a field in space.
 template <int dim>
 double GapResidual<dim>::jump(const Point &point, const typename mesh::Surface<dim>::Field &v) const
 {
@@ -90,16 +93,18 @@ template <int dim>
 double GapResidual<dim>::excess_work(const std::vector<state::ContactPoint> &rows,
                                      const mesh::Field<dim>                 &v) const
 {
+  const auto         &contact    = solver.contact(load_case);
   const auto          on_surface = solver.surface().gather(v);
+  const auto          in_space   = contact.placed_surface().turned(on_surface);
   std::vector<double> pressures;
   for (const auto &row : rows)
     pressures.push_back(row.pressure);
   const auto p    = values(pressures);
   double     work = 0.;
   for (unsigned int i = 0; i < points.size(); ++i)
-    work += p[i] * jump(points[i], on_surface) * points[i].area;
+    work += p[i] * jump(points[i], in_space) * points[i].area;
   work                    = -dealii::Utilities::MPI::sum(work, solver.mesh().communicator());
-  const auto coefficients = solver.contact().rows(positions);
+  const auto coefficients = contact.rows(positions);
   for (unsigned int i = 0; i < rows.size(); ++i)
     for (const auto &[node, c] : coefficients[i].coefficients)
       work += rows[i].force * (c * on_surface[node]);
@@ -111,8 +116,8 @@ template <int dim>
 std::vector<double> GapResidual<dim>::values(const std::vector<double> &of_rows) const
 {
   std::vector<std::vector<double>> nodal;
-  for (unsigned int p = 0; p < solver.contact().pairs().size(); ++p)
-    nodal.push_back(nodal_values(solver, p, of_rows));
+  for (unsigned int p = 0; p < solver.contact(load_case).pairs().size(); ++p)
+    nodal.push_back(nodal_values(solver, load_case, p, of_rows));
   std::vector<double> result;
   for (const auto &point : points)
     {
@@ -138,7 +143,7 @@ std::vector<response::PressureRows>
 GapResidual<dim>::pressures(const std::vector<double> &of_rows) const
 {
   const auto                          q = values(of_rows);
-  std::vector<response::PressureRows> of_pairs(solver.contact().named_pairs().size());
+  std::vector<response::PressureRows> of_pairs(solver.contact(load_case).named_pairs().size());
   for (unsigned int i = 0; i < points.size(); ++i)
     {
       of_pairs[points[i].named].force.push_back(q[i] * points[i].area);

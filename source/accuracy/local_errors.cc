@@ -187,7 +187,7 @@ template <int dim>
 void LocalErrors<dim>::add_contact(const std::vector<double> &pressures,
                                    std::vector<Residual>     &r) const
 {
-  const ContactPressure<dim> contact(solver, state.positions, pressures);
+  const ContactPressure<dim> contact(solver, state, pressures);
   for (const auto &face : mesh.boundary_faces())
     if (contact.is_on(face))
       {
@@ -212,7 +212,7 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
     r.emplace_back(spaces[cell.body].size(), 0.);
   add_interior_faces(of, r);
   add_loads(of, r);
-  if (solver.contact().n_rows() > 0)
+  if (solver.contact(state.load_case).n_rows() > 0)
     add_contact(of.pressures, r);
   return r;
 }

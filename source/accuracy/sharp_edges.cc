@@ -142,7 +142,7 @@ PairRows<dim> rows_of(const unsigned int              pair,
 {
   PairRows<dim> result;
   double        force = 0., area = 0.;
-  const auto   &places = solver.contact().places();
+  const auto   &places = solver.contact(state.load_case).places();
   for (unsigned int i = 0; i < places.size(); ++i)
     if (const auto &point = state.contact[i]; places[i].pair == pair && point.active)
       {
@@ -160,9 +160,10 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
                                    const state::ContactState<dim> &state)
 {
   const EdgeFinder<dim>  finder(solver, state);
-  const auto            &x      = finder.positions();
-  const auto             sizes  = contact::node_face_sizes(solver.surface(), x);
-  const auto            &joined = solver.contact().joined_pairs();
+  const auto            &contact = solver.contact(state.load_case);
+  const auto             x       = contact.placed_surface().to_space(finder.positions());
+  const auto             sizes   = contact::node_face_sizes(solver.surface(), x);
+  const auto            &joined  = contact.joined_pairs();
   std::vector<SharpEdge> result;
   for (unsigned int p = 0; p < joined.size(); ++p)
     {
@@ -176,7 +177,7 @@ std::vector<SharpEdge> sharp_edges(const state::StateSolver<dim>  &solver,
       bool                      of_slave = false;
       for (const unsigned int row : of.rows)
         {
-          const unsigned int node       = solver.contact().places()[row].slave;
+          const unsigned int node       = contact.places()[row].slave;
           const auto         is_at_edge = [&](const std::vector<unsigned int> &edge) {
             return std::any_of(edge.begin(), edge.end(), [&](const unsigned int other) {
               return (x[node] - x[other]).norm() <= near_edge * sizes[node];

@@ -140,10 +140,9 @@ std::vector<std::vector<double>> SurfaceLayer<dim>::works(const std::vector<Load
   const auto                                        &mesh = solver.mesh();
   std::vector<std::unique_ptr<ContactPressure<dim>>> contact;
   for (const auto &one : of)
-    contact.push_back(
-      solver.contact().n_rows() == 0
-        ? nullptr
-        : std::make_unique<ContactPressure<dim>>(solver, state.positions, one.pressures));
+    contact.push_back(solver.contact(state.load_case).n_rows() == 0
+                        ? nullptr
+                        : std::make_unique<ContactPressure<dim>>(solver, state, one.pressures));
   std::vector<std::vector<double>> result(mesh.cells().size(), std::vector<double>(of.size(), 0.));
   for (const auto &face : mesh.boundary_faces())
     {

@@ -226,16 +226,18 @@ public:
               const unsigned int                    p)
     : mesh(solver.mesh())
     , surface(solver.surface())
-    , pair(solver.contact().pairs()[p])
+    , pair(solver.contact(state.load_case).pairs()[p])
     , gaps(surface.n_nodes(), std::numeric_limits<double>::infinity())
   {
+    for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+      motions.push_back(solver.motion(state.load_case, body));
     double compliance = 0.;
     slave             = side(solver, contact::faces_of(surface, pair.slave), compliance);
     if (!pair.obstacle)
       master = side(solver, contact::faces_of(surface, pair.master), compliance);
     modulus = 1. / compliance;
     for (unsigned int i = 0; i < rows.size(); ++i)
-      if (solver.contact().places()[i].pair == p)
+      if (solver.contact(state.load_case).places()[i].pair == p)
         {
           const auto &of = state.contact[i];
           force += std::max(0., of.force);
@@ -264,7 +266,8 @@ public:
         const auto   found = sampler(
           face,
           [&](const dealii::Tensor<1, dim> &x) {
-            return (is_slave ? given.given(x) : 0.) - (is_smooth ? 0. : area * x / area.norm());
+            return (is_slave ? given.given(motions[face.body].point(x)) : 0.) -
+                   (is_smooth ? 0. : area * x / area.norm());
           },
           at_nodes);
         const double part = this->part(found, std::pow(area.norm(), 1. / (dim - 1)), dA);
@@ -275,13 +278,14 @@ public:
   }
 
 private:
-  const mesh::BodyMesh<dim> &mesh;
-  const mesh::Surface<dim>  &surface;
-  const contact::Pair       &pair;
-  Boundaries                 slave, master;
-  double                     modulus;
-  double                     force = 0., contact_area = 0.; ///< of rows that push
-  std::vector<double>        gaps; ///< at surface nodes: minimum over their rows, or infinite
+  const mesh::BodyMesh<dim>              &mesh;
+  const mesh::Surface<dim>               &surface;
+  const contact::Pair                    &pair;
+  std::vector<geometry::RigidMotion<dim>> motions; ///< of the bodies
+  Boundaries                              slave, master;
+  double                                  modulus;
+  double                                  force = 0., contact_area = 0.; ///< of rows that push
+  std::vector<double> gaps; ///< at surface nodes: minimum over their rows, or infinite
 
   /// Add (1 - nu^2) / E, the minimum over the cells of the side, to @p compliance. Collective.
   static Boundaries side(const state::StateSolver<dim>   &solver,
@@ -339,19 +343,22 @@ template <int dim>
 std::vector<RoughPressure> rough_pressures(const state::StateSolver<dim>  &solver,
                                            const state::ContactState<dim> &state)
 {
-  const auto                &mesh    = solver.mesh();
-  const auto                &surface = solver.surface();
-  const auto                &pairs   = solver.contact().pairs();
-  const auto                 at      = surface.gather(state.positions);
-  const auto                 held    = solver.held().directions(surface, state.positions);
-  const auto                 rows    = solver.contact().rows(at);
-  FaceSampler<dim>           sampler(mesh, state.positions, rough_degree);
+  const auto      &mesh    = solver.mesh();
+  const auto      &surface = solver.surface();
+  const auto      &contact = solver.contact(state.load_case);
+  const auto      &placed  = contact.placed_surface();
+  const auto      &pairs   = contact.pairs();
+  const auto       at      = surface.gather(state.positions);
+  const auto       x       = placed.to_space(at);
+  const auto       held    = placed.turned(solver.held().directions(surface, state.positions));
+  const auto       rows    = contact.rows(at);
+  FaceSampler<dim> sampler(mesh, state.positions, rough_degree);
   const std::vector<double>  none(mesh.cells().size(), 0.);
   std::vector<RoughPressure> result;
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {
       const PairInState<dim> pair(solver, state, rows, p);
-      const auto             given = solver.contact().point_gaps(p, at, held);
+      const auto             given = contact.point_gaps(p, x, held);
       RoughPressure          rough{pairs[p].name(), 0., none, none};
       throw_collectively(mesh.communicator(),
                          std::bind(&PairInState<dim>::add, &pair, std::cref(*given),

@@ -11,27 +11,30 @@ qp::WarmStart transferred(const state::StateSolver<dim>  &from,
   std::vector<double> pressures;
   for (const auto &point : state.contact)
     pressures.push_back(point.pressure);
-  const ContactPressure<dim> pressure(from, state.positions, pressures);
-  const auto                 x      = to.surface().gather(positions);
-  const auto                 areas  = to.contact().areas(x);
-  const auto                &places = to.contact().places();
+  const ContactPressure<dim> pressure(from, state, pressures);
+  const auto                &contact  = to.contact(state.load_case);
+  const auto                 x        = to.surface().gather(positions);
+  const auto                 in_space = contact.placed_surface().to_space(x);
+  const auto                 areas    = contact.areas(x);
+  const auto                &places   = contact.places();
   std::vector<double>        forces;
   bool                       any = false;
   for (unsigned int i = 0; i < places.size(); ++i)
     {
       forces.push_back(
-        std::max(0., areas[i] * pressure.on_slave_side(places[i].pair, x[places[i].slave])));
+        std::max(0., areas[i] * pressure.on_slave_side(places[i].pair, in_space[places[i].slave])));
       any = any || forces.back() > 0.;
     }
   if (!any)
     return qp::WarmStart();
-  const auto   &contact_of_row = to.gluing().contact_of_row();
+  const auto   &gluing         = to.gluing(state.load_case);
+  const auto   &contact_of_row = gluing.contact_of_row();
   qp::WarmStart start{qp::MultiVector(contact_of_row.size()), qp::RowSet(contact_of_row.size(), 1)};
   for (unsigned int row = 0; row < contact_of_row.size(); ++row)
     if (contact_of_row[row] < forces.size())
       {
         const double force = forces[contact_of_row[row]];
-        start.lambda(row)  = force * to.gluing().contact_scales()[contact_of_row[row]];
+        start.lambda(row)  = force * gluing.contact_scales()[contact_of_row[row]];
         start.active[row]  = force > 0.;
       }
   return start;

@@ -19,10 +19,10 @@ template <int dim>
 std::vector<unsigned int> nearly_closed(const state::StateSolver<dim>  &solver,
                                         const state::ContactState<dim> &state)
 {
-  const auto &places = solver.contact().places();
+  const auto &places = solver.contact(state.load_case).places();
   const auto  sizes =
     contact::node_face_sizes(solver.surface(), solver.surface().gather(state.positions));
-  std::vector<bool> has_force(solver.contact().pairs().size(), false);
+  std::vector<bool> has_force(solver.contact(state.load_case).pairs().size(), false);
   // For each pair, find the row with the minimum gap.
   std::vector<unsigned int> nearest(has_force.size(), places.size());
   for (unsigned int i = 0; i < places.size(); ++i)
@@ -82,11 +82,11 @@ std::vector<unsigned int> underresolved_contact(const state::StateSolver<dim>  &
   for (const auto &patch : state::contact_patches(solver, state))
     if (!patch.is_light && patch.width < across)
       for (const unsigned int row : patch.rows)
-        at_nodes[solver.contact().places()[row].slave] = true;
+        at_nodes[solver.contact(state.load_case).places()[row].slave] = true;
   for (const unsigned int node : nearly_closed(solver, state))
     at_nodes[node] = true;
   std::set<unsigned int> result;
-  for (const auto &pair : solver.contact().pairs())
+  for (const auto &pair : solver.contact(state.load_case).pairs())
     {
       auto beside = at_nodes;
       for (const unsigned int face : faces_at(surface, pair, at_nodes))

@@ -1,6 +1,7 @@
 #include <snug/app/build_loads.h>
 #include <snug/base/values.h>
 #include <snug/geometry/formula.h>
+#include <snug/geometry/rigid_motion.h>
 
 namespace snug::app {
 namespace {
@@ -147,6 +148,60 @@ state::LoadCase<dim> common_loads(const scene::Scene &scene, const mesh::BodyMes
   return common;
 }
 
+/// Return the position of bodies and obstacles in a load case.
+template <int dim>
+contact::Position<dim> position_of(const scene::Scene              &scene,
+                                   const scene::LoadCaseParameters &parameters)
+{
+  contact::Position<dim> position;
+  for (const auto &[name, text] : parameters.positions)
+    {
+      const auto motion = geometry::rigid_motion<dim>(text);
+      // Positions are compared, so a body that does not move is not in the list.
+      if (motion.is_identity())
+        continue;
+      if (const unsigned int body = scene::body_index(scene, name); body < scene.bodies.size())
+        position.bodies[body] = motion;
+      else
+        position.obstacles[name] = motion;
+    }
+  return position;
+}
+
+/// Return v with components in the frame of a body that @p motion moves, for @p v in space.
+template <int dim>
+dealii::Tensor<1, 3> moment_back(const geometry::RigidMotion<dim> &motion,
+                                 const dealii::Tensor<1, 3>       &v)
+{
+  if constexpr (dim == 3)
+    return motion.vector_back(v);
+  return v; // about z
+}
+
+/// Turn the loads of a load case, whose directions are given in space, to the frames of the bodies.
+template <int dim>
+void turn_loads_back(state::LoadCase<dim> &load_case)
+{
+  for (const auto &[b, motion] : load_case.position.bodies)
+    {
+      const auto turn = [motion = motion](VectorFunction<dim> &function) {
+        if (function)
+          function = [motion, function](const dealii::Point<dim> &x) {
+            return motion.vector_back(function(x));
+          };
+      };
+      auto &body = load_case.bodies[b];
+      turn(body.body_force);
+      body.gravity = motion.vector_back(body.gravity);
+      for (auto &[boundary, load] : body.boundaries)
+        {
+          turn(load.traction);
+          load.resultant.force  = motion.vector_back(load.resultant.force);
+          load.resultant.moment = moment_back(motion, load.resultant.moment);
+        }
+    }
+}
+
 /// The index of a held component among @p supports, added if it is new.
 template <int dim>
 unsigned int index_of(const supports::Support<dim>        &wanted,
@@ -197,6 +252,9 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
       for (auto &body : cases.back().bodies)
         body.gravity += to_tensor<dim>(of.gravity);
       LoadBuilder<dim>(scene, mesh, "Load case " + of.name, "").add(of.loads, cases.back());
+      cases.back().position = position_of<dim>(scene, of);
+      if (of.loads_in_space)
+        turn_loads_back(cases.back());
     }
   return cases;
 }

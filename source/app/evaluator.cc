@@ -163,7 +163,10 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
   };
   result.memory   = [this]() { return starts.bytes(); };
   result.remember = [this](const std::string &bytes) {
-    return starts.read(bytes, problem.solver->gluing().layout().n_owned(), problem.n_load_cases());
+    std::vector<unsigned int> n_owned; // per load case
+    for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+      n_owned.push_back(problem.solver->gluing(c).layout().n_owned());
+    return starts.read(bytes, n_owned);
   };
   if (is_predicted())
     result.predict = [this](const optimization::Evaluation &at, const std::vector<double> &dx) {

@@ -1,6 +1,7 @@
 #include <snug/app/evaluator.h>
 
 #include <algorithm>
+#include <map>
 
 namespace snug::app {
 using optimization::Evaluation;
@@ -69,8 +70,8 @@ private:
 template <int dim>
 bool Evaluator<dim>::measures_contact(const response::Response<dim> &response) const
 {
-  const std::vector<double> none(problem.solver->contact().n_rows(), 0.);
-  return response.of_contact(*problem.solver, {none, none}).has_value();
+  const std::vector<double> none(problem.solver->contact(0).n_rows(), 0.);
+  return response.of_contact(*problem.solver, 0, {none, none}).has_value();
 }
 
 template <int dim>
@@ -90,24 +91,26 @@ bool Evaluator<dim>::is_predicted() const
 template <int dim>
 std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) const
 {
-  const unsigned int               n       = problem.shapes->n_variables();
-  const auto                       steps   = problem.shapes->first_steps();
-  const auto                      &solver  = *problem.solver;
-  std::vector<std::vector<double>> by_area = {};
-  for (unsigned int j = 0; j < n; ++j)
-    {
-      const auto areas_at = [&](const double h) {
-        auto moved = at.design;
-        moved[j] += h;
-        return solver.contact().areas(solver.surface().gather(problem.positions(moved)));
-      };
-      const double h     = area_step * steps[j];
-      auto         areas = areas_at(h);
-      const auto   other = areas_at(-h);
-      for (unsigned int i = 0; i < areas.size(); ++i)
-        areas[i] = (areas[i] - other[i]) / (2. * h);
-      by_area.push_back(std::move(areas));
-    }
+  using Numbers                                       = std::vector<double>;
+  const unsigned int                           n      = problem.shapes->n_variables();
+  const auto                                   steps  = problem.shapes->first_steps();
+  const auto                                  &solver = *problem.solver;
+  std::map<const void *, std::vector<Numbers>> by_area; // per contact of a position and variable
+  for (const unsigned int c : solver.positions())
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        const auto areas_at = [&](const double h) {
+          auto moved = at.design;
+          moved[j] += h;
+          return solver.contact(c).areas(solver.surface().gather(problem.positions(moved)));
+        };
+        const double h     = area_step * steps[j];
+        auto         areas = areas_at(h);
+        const auto   other = areas_at(-h);
+        for (unsigned int i = 0; i < areas.size(); ++i)
+          areas[i] = (areas[i] - other[i]) / (2. * h);
+        by_area[&solver.contact(c)].push_back(std::move(areas));
+      }
   std::vector<double> result;
   for (unsigned int c = 0; c < at.states.size(); ++c)
     {
@@ -119,7 +122,8 @@ std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) 
         {
           const auto &forces = at.gradients.forces[c * n + j];
           result.insert(result.end(), forces.begin(), forces.end());
-          result.insert(result.end(), by_area[j].begin(), by_area[j].end());
+          const auto &areas = by_area.at(&solver.contact(c))[j];
+          result.insert(result.end(), areas.begin(), areas.end());
         }
     }
   return result;
@@ -135,12 +139,15 @@ template <int dim>
 Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<double> &dx) const
 {
   const auto                         &solver = *problem.solver;
-  const unsigned int                  n = dx.size(), n_rows = solver.contact().n_rows();
+  const unsigned int                  n      = dx.size();
   std::vector<LinearRows>             of_cases;
   std::vector<response::PressureRows> rows;
+  const double                       *numbers = at.linearization.data();
   for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
     {
-      of_cases.emplace_back(at.linearization.data() + c * LinearRows::size(n_rows, n), n_rows, n);
+      const unsigned int n_rows = solver.contact(c).n_rows();
+      of_cases.emplace_back(numbers, n_rows, n);
+      numbers += LinearRows::size(n_rows, n);
       rows.push_back(of_cases.back().at(dx));
     }
   const auto linear = [&](const double value, const std::vector<double> &gradient) {
@@ -154,9 +161,9 @@ Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<dou
     {
       std::vector<response::Measured> measured;
       std::vector<double>             values;
-      for (const auto &of_case : rows)
+      for (unsigned int c = 0; c < rows.size(); ++c)
         {
-          measured.push_back(*problem.objective->of_contact(solver, of_case));
+          measured.push_back(*problem.objective->of_contact(solver, c, rows[c]));
           values.push_back(measured.back().value);
         }
       const auto combined = problem.combined(values);
@@ -170,7 +177,8 @@ Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<dou
   for (unsigned int k = 0; k < constraints.size(); ++k)
     {
       const auto &constraint = constraints[k];
-      const auto  measured   = constraint.response->of_contact(solver, rows[constraint.load_case]);
+      const auto  measured =
+        constraint.response->of_contact(solver, constraint.load_case, rows[constraint.load_case]);
       if (!measured)
         {
           result.constraints[k] = linear(at.constraints[k], at.jacobian[k]);

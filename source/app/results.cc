@@ -45,31 +45,41 @@ Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 template <int dim>
 void Results<dim>::print_header()
 {
-  const auto &solver = *problem->solver;
-  auto       &out    = problem->context.out();
+  const auto &solver    = *problem->solver;
+  auto       &out       = problem->context.out();
+  const auto  mesh_rows = counted_rows();
   out << counted(problem->scene.bodies.size(), "body", "bodies") << ", "
       << counted(problem->mesh->n_global_cells(), "cell") << ", "
       << counted(dim * problem->mesh->n_global_free_nodes(), "unknown") << ", "
       << counted(problem->tearing.n_global, "subdomain") << ", "
-      << counted(solver.gluing().n_contact_rows(), "contact constraint") << " of "
-      << counted(solver.gluing().n_rows(), "constraint") << ", "
+      << counted(mesh_rows.contact, "contact constraint") << " of "
+      << counted(mesh_rows.all, "constraint") << ", "
       << counted(problem->shapes->n_variables(), "design variable") << ", "
       << counted(problem->context.n_ranks(), "MPI process", "MPI processes") << std::endl;
   print_import_notes(problem->scene, out);
-  print_pairs();
+  const auto positions = solver.positions();
+  for (const unsigned int c : positions)
+    print_pairs(c, positions.size() > 1);
   warn(unrefined(problem->scene, *problem->mesh));
-  warn(state::symmetry_warnings(*problem->mesh, solver.model().supports, solver.contact().pairs()));
-  warn(state::matching_warnings(solver.contact().pairs(), solver.contact().matchings()));
-  warn(state::overlap_warnings(solver.contact().pairs(), solver.contact().paired_gaps()));
+  for (const unsigned int c : positions)
+    {
+      const auto &contact = solver.contact(c);
+      warn(state::symmetry_warnings(*problem->mesh, solver.model().supports, contact.pairs()));
+      warn(state::matching_warnings(contact.pairs(), contact.matchings()));
+      warn(state::overlap_warnings(contact.pairs(), contact.paired_gaps(),
+                                   state::place_of(solver.model(), c)));
+    }
 }
 
+/// Print the pairs at the position of a load case. Of several positions, those after the first are
+/// printed for Verbosity = debug alone.
 template <int dim>
-void Results<dim>::print_pairs() const
+void Results<dim>::print_pairs(const unsigned int load_case, const bool is_one_of_several) const
 {
-  auto                     &out     = problem->context.out();
-  const auto               &contact = problem->solver->contact();
-  const auto               &surface = problem->solver->surface();
-  const auto               &pairs   = contact.pairs();
+  auto       &out     = problem->context.out(load_case > 0 ? Verbosity::debug : Verbosity::normal);
+  const auto &contact = problem->solver->contact(load_case);
+  const auto &surface = problem->solver->surface();
+  const auto &pairs   = contact.pairs();
   std::vector<unsigned int> rows(pairs.size(), 0);
   for (const auto &place : contact.places())
     ++rows[place.pair];
@@ -90,7 +100,9 @@ void Results<dim>::print_pairs() const
   };
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {
-      out << "contact " << pairs[p].name() << ", ";
+      out << "contact " << pairs[p].name()
+          << (is_one_of_several ? state::place_of(problem->solver->model(), load_case) : "")
+          << ", ";
       const auto &matching = contact.matchings()[p];
       if (pairs[p].obstacle)
         out << "obstacle";
@@ -174,16 +186,18 @@ void Results<dim>::draw(const double                  time,
   // the last design may be one that was asked for already
   if (time > 0. && time == drawn)
     return;
-  drawn               = time;
-  const auto &solver  = *problem->solver;
-  const auto &contact = solver.contact();
+  drawn              = time;
+  const auto &solver = *problem->solver;
   for (unsigned int c = 0; c < states.size(); ++c)
     {
-      pictures[c].fields.write({*problem->mesh, problem->tearing, solver.model().bodies}, time,
-                               states[c], gradient ? &*gradient : nullptr,
+      pictures[c].fields.write({*problem->mesh, problem->tearing, solver.model().bodies,
+                                solver.model().load_cases[c].position},
+                               time, states[c], gradient ? &*gradient : nullptr,
                                errors.empty() ? nullptr : &errors[c].energy.cells);
+      const auto &contact = solver.contact(c);
       pictures[c].contact.write({*problem->mesh, solver.surface(), contact.joined_pairs(),
-                                 contact.places(), contact.dependent_multipliers()},
+                                 contact.places(), contact.dependent_multipliers(),
+                                 contact.placed_surface()},
                                 time, states[c]);
     }
 }
@@ -210,7 +224,7 @@ void Results<dim>::export_first_qp(const States &states)
   solver.restore(state); // may factorize, which has a stage of its own
   const auto             &feti = solver.feti(state);
   const RunContext::Timer timer(problem->context, "output");
-  io::export_qp(path("qp"), feti, solver.gluing().layout(), state.u, state.dual.lambda);
+  io::export_qp(path("qp"), feti, solver.gluing(0).layout(), state.u, state.dual.lambda);
 }
 
 template <int dim>
@@ -331,12 +345,27 @@ void Results<dim>::export_shape(const std::vector<double> &design)
   });
 }
 
+/// Return the numbers of rows. Rows of gluing and supports, which all positions share, count once.
+template <int dim>
+typename Results<dim>::RowCounts Results<dim>::counted_rows() const
+{
+  RowCounts rows;
+  for (const unsigned int c : problem->solver->positions())
+    {
+      const auto &gluing = problem->solver->gluing(c);
+      rows.contact += gluing.n_contact_rows();
+      rows.all += c == 0 ? gluing.n_rows() : gluing.n_contact_rows();
+    }
+  return rows;
+}
+
 template <int dim>
 void Results<dim>::count_rows()
 {
   summary.mesh                  = io::summarize(*problem->mesh, problem->tearing);
-  summary.mesh.dual_rows        = problem->solver->gluing().n_rows();
-  summary.mesh.contact_rows     = problem->solver->gluing().n_contact_rows();
+  const auto rows               = counted_rows();
+  summary.mesh.dual_rows        = rows.all;
+  summary.mesh.contact_rows     = rows.contact;
   summary.mesh.kernel_dimension = problem->solver->n_kernel();
 }
 

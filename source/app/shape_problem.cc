@@ -37,7 +37,9 @@ template <int dim>
 void ShapeProblem<dim>::check_overlaps() const
 {
   with_file_context(scene, [&]() {
-    state::check_overlaps(solver->contact().pairs(), solver->contact().paired_gaps());
+    for (const unsigned int c : solver->positions())
+      state::check_overlaps(solver->contact(c).pairs(), solver->contact(c).paired_gaps(),
+                            state::place_of(solver->model(), c));
   });
 }
 
@@ -131,8 +133,9 @@ double ShapeProblem<dim>::drift(const Design &design) const
 {
   const auto x       = solver->surface().gather(positions(design));
   double     largest = 0.;
-  for (const double drift : solver->contact().pairing_drifts(x, solver->contact().rows(x)))
-    largest = std::max(largest, drift);
+  for (const unsigned int c : solver->positions())
+    for (const double drift : solver->contact(c).pairing_drifts(x, solver->contact(c).rows(x)))
+      largest = std::max(largest, drift);
   return largest;
 }
 

@@ -127,9 +127,11 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   for (const auto &line : unrefined(scene, *mesh))
     context.warn(line);
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
-  for (const auto &line : state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
-                                                   problem.solver->contact().pairs()))
-    context.warn(line);
+  for (const unsigned int c : problem.solver->positions())
+    for (const auto &line :
+         state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
+                                  problem.solver->contact(c).pairs()))
+      context.warn(line);
   problem.check_overlaps();
   const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.

@@ -59,9 +59,9 @@ double Adaptation<dim>::rough_part() const
 {
   double                              least  = 0.1;
   const auto                         &solver = *solved->problem->solver;
-  std::vector<response::PressureRows> none(solver.contact().named_pairs().size());
+  std::vector<response::PressureRows> none(solver.contact(0).named_pairs().size());
   for (unsigned int d = 0; d < demands.size(); ++d)
-    if (solved->responses[demands[d].place]->measured(solver, none))
+    if (solved->responses[demands[d].place]->measured(solver, 0, none))
       least = std::min(least, 0.25 * demands[d].allowed(solved->measured[d]) /
                                 std::max(std::abs(solved->measured[d].value),
                                          std::numeric_limits<double>::min()));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace snug::app {
 namespace {
@@ -113,12 +114,13 @@ std::string WarmStartExtrapolation::bytes() const
   return bytes;
 }
 
-bool WarmStartExtrapolation::read(const std::string &bytes,
-                                  const unsigned int n_owned,
-                                  const unsigned int n_cases)
+bool WarmStartExtrapolation::read(const std::string               &bytes,
+                                  const std::vector<unsigned int> &n_owned)
 {
   entries.clear();
-  const std::size_t of_entry = (units.size() + std::size_t(n_cases) * n_owned) * sizeof(double);
+  const std::size_t of_entry =
+    (units.size() + std::accumulate(n_owned.begin(), n_owned.end(), std::size_t(0))) *
+    sizeof(double);
   if (of_entry == 0 || bytes.size() % of_entry != 0 || bytes.size() / of_entry > most)
     return bytes.empty();
   for (const char *from = bytes.data(); from != bytes.data() + bytes.size();)
@@ -126,11 +128,11 @@ bool WarmStartExtrapolation::read(const std::string &bytes,
       Entry entry{std::vector<double>(units.size()), {}};
       std::memcpy(entry.design.data(), from, units.size() * sizeof(double));
       from += units.size() * sizeof(double);
-      for (unsigned int i = 0; i < n_cases; ++i)
+      for (const unsigned int n : n_owned)
         {
-          entry.forces.emplace_back(n_owned);
-          std::memcpy(entry.forces.back().column(0), from, n_owned * sizeof(double));
-          from += n_owned * sizeof(double);
+          entry.forces.emplace_back(n);
+          std::memcpy(entry.forces.back().column(0), from, n * sizeof(double));
+          from += n * sizeof(double);
         }
       entries.push_back(entry);
     }

@@ -9,21 +9,6 @@ namespace {
 /// Step of the difference quotients of gap formulas, as a fraction of the size of the slave faces.
 const double gap_step = 1. / 25.;
 
-/// Return the value of @p field at the slave of a row minus the value at its master, if the row has
-/// master nodes. Coefficients are c n, so their product with n is the factor c: 1 at the slave and
-/// -w_k at the master, or the factors of a mortar row. A row against an obstacle has no master
-/// nodes, so its result is the value at the slave.
-template <int dim>
-dealii::Tensor<1, dim> slave_minus_master(const Row<dim>                           &row,
-                                          const typename mesh::Surface<dim>::Field &field)
-{
-  dealii::Tensor<1, dim> sum;
-  for (const auto &c : row.coefficients)
-    // (c n . n) u = c u
-    sum += (c.second * row.normal) * field[c.first];
-  return sum;
-}
-
 /// Return the length of the part of @p v at right angles to @p normal [length]. Rows do not resist
 /// this part, because contact is without friction.
 template <int dim>
@@ -32,6 +17,21 @@ double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &norm
   return (v - (v * normal) * normal).norm();
 }
 } // namespace
+
+/// Return the value of the field @p in_space at the slave of a row minus the value at its master,
+/// if the row has master nodes. Coefficients are c n, so their product with n is the factor c: 1 at
+/// the slave and -w_k at the master, or the factors of a mortar row. A row against an obstacle has
+/// no master nodes, so its result is the value at the slave.
+template <int dim>
+dealii::Tensor<1, dim> Contact<dim>::slave_minus_master(const Row<dim> &row,
+                                                        const Field    &in_space) const
+{
+  dealii::Tensor<1, dim> sum;
+  for (const auto &[node, coefficient] : row.coefficients)
+    // (c n . n) u = c u
+    sum += (placed.turned(node, coefficient) * row.normal) * in_space[node];
+  return sum;
+}
 
 /// Shift the row indices: groups number their own rows, but rows of Contact count through all
 /// groups.
@@ -55,20 +55,22 @@ void Contact<dim>::collect_dependent_multipliers()
 template <int dim>
 void Contact<dim>::measure_pairing(const Field &positions)
 {
-  const auto paired = rows(positions);
-  const auto sizes  = node_face_sizes(surface, positions);
+  const auto paired   = rows(positions);
+  const auto sizes    = node_face_sizes(surface, positions);
+  const auto in_space = placed.to_space(positions);
   paired_offsets.clear();
   gaps.assign(groups.size(), {});
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
       const auto &[p, slave, of] = row_places[i];
-      paired_offsets.push_back(slave_minus_master(paired[i], positions));
+      paired_offsets.push_back(slave_minus_master(paired[i], in_space));
       double gap = paired[i].gap;
       // An obstacle that moves into a body is a load, not a misplaced body.
       if (chosen[p].obstacle)
         {
-          const dealii::Tensor<1, dim> motion = to_point<dim>(chosen[p].obstacle->displacement);
-          gap -= paired[i].normal * motion;
+          const auto &obstacle = *chosen[p].obstacle;
+          gap -= paired[i].normal *
+                 position.of_obstacle(obstacle.name).vector(to_point<dim>(obstacle.displacement));
         }
       gaps[p].least   = std::min(gaps[p].least, gap);
       gaps[p].largest = std::max(gaps[p].largest, gap);
@@ -97,18 +99,19 @@ template <int dim>
 std::vector<Row<dim>> Contact<dim>::rows(const Field &positions) const
 {
   AssertDimension(positions.size(), surface.n_points());
+  const auto            in_space = placed.to_space(positions);
   std::vector<Row<dim>> result;
   for (const Group &group : groups)
-    for (Row<dim> &row : group.rows->rows(positions))
+    for (Row<dim> &row : group.rows->rows(in_space))
       {
         const unsigned int slave = row_places[result.size()].slave;
         if (group.offset)
           // The formula is evaluated at the slave's position in the design, because the formula
-          // belongs to places, not to the material.
+          // belongs to places, not to the material. It moves with the slave's body.
           row.gap += group.offset->value(dealii::Point<dim>(positions[slave]));
         result.push_back(std::move(row));
       }
-  return result;
+  return placed.turned_back(std::move(result));
 }
 
 template <int dim>
@@ -117,9 +120,10 @@ std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
 {
   AssertDimension(positions.size(), surface.n_points());
   AssertDimension(velocity.size(), surface.n_points());
+  const auto            in_space = placed.to_space(positions), motion = placed.turned(velocity);
   std::vector<Row<dim>> result;
   for (const Group &group : groups)
-    for (Row<dim> &row : group.rows->row_derivatives(positions, velocity))
+    for (Row<dim> &row : group.rows->row_derivatives(in_space, motion))
       {
         const unsigned int slave = row_places[result.size()].slave;
         if (group.offset)
@@ -128,7 +132,7 @@ std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
                      velocity[slave];
         result.push_back(std::move(row));
       }
-  return result;
+  return placed.turned_back(std::move(result));
 }
 
 template <int dim>
@@ -139,21 +143,25 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
   AssertDimension(positions.size(), surface.n_points());
   AssertDimension(displacement.size(), surface.n_nodes());
   AssertDimension(forces.size(), n_rows());
-  Field gradient(surface.n_points());
-  auto  first = forces.begin();
+  const auto in_space = placed.to_space(positions), moved = placed.turned(displacement);
+  Field      gradient(surface.n_points()), of_offsets     = gradient;
+  auto       first = forces.begin();
   for (const Group &group : groups)
     {
       const auto               &slaves = group.rows->slaves();
       const std::vector<double> of_group(first, first + slaves.size());
       first += slaves.size();
-      group.rows->add_energy_gradient(positions, displacement, of_group, gradient);
+      group.rows->add_energy_gradient(in_space, moved, of_group, gradient);
       if (group.offset)
         for (unsigned int i = 0; i < slaves.size(); ++i)
           // The energy is sum_i force_i (sum_b c_b . u_b - gap_i), so the gap has a minus sign.
-          gradient[slaves[i]] -=
+          of_offsets[slaves[i]] -=
             of_group[i] *
             group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]), group.step);
     }
+  gradient = placed.turned_back(std::move(gradient));
+  for (unsigned int point = 0; point < gradient.size(); ++point)
+    gradient[point] += of_offsets[point];
   return gradient;
 }
 
@@ -161,10 +169,11 @@ template <int dim>
 std::vector<double> Contact<dim>::areas(const Field &positions) const
 {
   AssertDimension(positions.size(), surface.n_points());
+  const auto          in_space = placed.to_space(positions);
   std::vector<double> result;
   for (const Group &group : groups)
     {
-      const auto of_group = group.rows->areas(positions);
+      const auto of_group = group.rows->areas(in_space);
       result.insert(result.end(), of_group.begin(), of_group.end());
     }
   return result;
@@ -176,15 +185,16 @@ typename Contact<dim>::Field Contact<dim>::area_gradient(const Field            
 {
   AssertDimension(positions.size(), surface.n_points());
   AssertDimension(factors.size(), n_rows());
-  Field gradient(surface.n_points());
-  auto  first = factors.begin();
+  const auto in_space = placed.to_space(positions);
+  Field      gradient(surface.n_points());
+  auto       first = factors.begin();
   for (const Group &group : groups)
     {
       const auto last = first + group.rows->slaves().size();
-      group.rows->add_area_gradient(positions, {first, last}, gradient);
+      group.rows->add_area_gradient(in_space, {first, last}, gradient);
       first = last;
     }
-  return gradient;
+  return placed.turned_back(std::move(gradient));
 }
 
 template <int dim>
@@ -202,9 +212,10 @@ std::vector<double> Contact<dim>::tangential_slips(const Field                 &
                                                    const Field                 &displacement) const
 {
   const auto          sizes = node_face_sizes(surface, positions);
+  const auto          moved = placed.turned(displacement);
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
-    result.push_back(along(slave_minus_master(rows[i], displacement), rows[i].normal) /
+    result.push_back(along(slave_minus_master(rows[i], moved), rows[i].normal) /
                      sizes[row_places[i].slave]);
   return result;
 }
@@ -213,11 +224,12 @@ template <int dim>
 std::vector<double> Contact<dim>::pairing_drifts(const Field                 &positions,
                                                  const std::vector<Row<dim>> &rows) const
 {
-  const auto          sizes = node_face_sizes(surface, positions);
+  const auto          sizes    = node_face_sizes(surface, positions);
+  const auto          in_space = placed.to_space(positions);
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      const auto offset             = slave_minus_master(rows[i], positions);
+      const auto offset             = slave_minus_master(rows[i], in_space);
       const auto &[pair, slave, of] = row_places[i];
       const auto &off_face          = rows[i].off_face;
       // Where the foot point follows the node, the offset is along the normal, except for fixed

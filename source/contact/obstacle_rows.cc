@@ -12,9 +12,7 @@ class ObstacleRow
 {
 public:
   explicit ObstacleRow(const PairGeometry<dim> &pair)
-    : obstacle(choose(obstacle_table<dim>(), pair.pair.obstacle->shape)
-                 .make(*pair.pair.obstacle, pair.slave_size()))
-    , shift(to_point<dim>(pair.pair.obstacle->displacement))
+    : obstacle(pair.obstacle()), shift(pair.obstacle_displacement())
   {
     const SearchCriteria<dim> criteria(pair);
     std::vector<bool>         visited = pair.taken;

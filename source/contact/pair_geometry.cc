@@ -22,7 +22,45 @@ double face_size(const std::vector<unsigned int>          &nodes,
 {
   return (positions[nodes.back()] - positions[nodes.front()]).norm() / std::sqrt(dim - 1.);
 }
+
+/// An obstacle that a rigid motion has moved, x = Q X + t.
+template <int dim>
+class MovedObstacle : public Obstacle<dim>
+{
+public:
+  MovedObstacle(std::unique_ptr<Obstacle<dim>> obstacle, const geometry::RigidMotion<dim> &motion)
+    : obstacle(std::move(obstacle)), motion(motion)
+  {}
+
+  std::optional<ObstacleDistance<dim>> distance(const dealii::Point<dim> &x) const override
+  {
+    auto d = obstacle->distance(dealii::Point<dim>(motion.point_back(x)));
+    if (d)
+      *d = {d->value, motion.vector(d->gradient), motion.Q * d->hessian * transpose(motion.Q)};
+    return d;
+  }
+
+private:
+  const std::unique_ptr<Obstacle<dim>> obstacle;
+  const geometry::RigidMotion<dim>     motion;
+};
 } // namespace
+
+template <int dim>
+std::unique_ptr<Obstacle<dim>> PairGeometry<dim>::obstacle() const
+{
+  auto unmoved =
+    choose(obstacle_table<dim>(), pair.obstacle->shape).make(*pair.obstacle, slave_size());
+  if (obstacle_motion.is_identity())
+    return unmoved;
+  return std::make_unique<MovedObstacle<dim>>(std::move(unmoved), obstacle_motion);
+}
+
+template <int dim>
+dealii::Tensor<1, dim> PairGeometry<dim>::obstacle_displacement() const
+{
+  return obstacle_motion.vector(to_point<dim>(pair.obstacle->displacement));
+}
 
 template <int dim>
 std::vector<unsigned int> faces_of(const mesh::Surface<dim> &surface, const Side &side)

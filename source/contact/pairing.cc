@@ -52,10 +52,17 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
                       const std::vector<Pair>          &pairs,
                       unsigned int                      degree,
                       const Field                      &positions,
-                      const faces::HeldDirections<dim> &held)
-  : surface(surface), shape(degree), joined(join_pairs(surface, shape, pairs, positions))
+                      const faces::HeldDirections<dim> &held,
+                      const Position<dim>              &position)
+  : placed(surface, position)
+  , surface(placed.surface())
+  , position(position)
+  , shape(degree)
+  , joined(join_pairs(this->surface, shape, pairs, placed.to_space(positions)))
 {
-  choose_slaves(positions, held);
+  const auto x = placed.to_space(positions);
+  const auto q = placed.turned(held);
+  choose_slaves(x, q);
   named.resize(pairs.size());
   for (const JoinedPair &of : joined)
     for (const auto &part : of.parts)
@@ -65,7 +72,7 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
         if (!pair.slave.has(part.slave))
           std::swap(named[part.pair].slave_name, named[part.pair].master_name);
       }
-  make_groups(positions, held);
+  make_groups(x, q);
   // A list of boundaries stands for all pairs of one boundary of each side. Remove the pairs
   // without rows, because some of them may be too far apart to touch.
   for (unsigned int p = joined.size(); p-- > 0;)
@@ -76,7 +83,8 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
         matching_of.erase(matching_of.begin() + p);
         groups.erase(groups.begin() + p);
       }
-  number_rows(positions, held);
+  number_rows(x, q);
+  measure_pairing(positions);
 }
 
 /// Choose the slaves and the methods of the joined pairs. The choices are made once, because a
@@ -130,15 +138,26 @@ PairGeometry<dim> Contact<dim>::geometry(const unsigned int                p,
                                          std::vector<bool>                 taken) const
 {
   taken.resize(surface.n_nodes(), false);
-  return {surface,   shape, chosen[p],       sides_of(surface, chosen[p]),
-          positions, held,  std::move(taken)};
+  const Pair &pair = chosen[p];
+  return {surface,
+          shape,
+          pair,
+          sides_of(surface, pair),
+          positions,
+          held,
+          std::move(taken),
+          position.of_body(pair.slave.body()),
+          position.of_obstacle(pair.obstacle ? pair.obstacle->name : "")};
 }
 
 template <int dim>
 void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim> &held)
 {
-  make_groups(positions, held);
-  number_rows(positions, held);
+  const auto x = placed.to_space(positions);
+  const auto q = placed.turned(held);
+  make_groups(x, q);
+  number_rows(x, q);
+  measure_pairing(positions);
 }
 
 template <int dim>
@@ -152,7 +171,6 @@ void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirectio
   share_rows(positions, held);
   check_named_pairs();
   collect_dependent_multipliers();
-  measure_pairing(positions);
 }
 
 template <int dim>
@@ -248,22 +266,25 @@ void Contact<dim>::check_named_pairs() const
     if (!groups[p].rows->slaves().empty())
       for (const auto &part : joined[p].parts)
         has_rows[part.pair] = true;
+  // In a position of its own, another pair may carry the load, like the next teeth of a gear.
+  const bool may_miss = !(position == Position<dim>()) &&
+                        std::find(has_rows.begin(), has_rows.end(), true) != has_rows.end();
   for (unsigned int pair = 0; pair < named.size(); ++pair)
-    if (!has_rows[pair])
+    if (!has_rows[pair] && !may_miss)
       throw InputError(
         "contact pair '" + named[pair].name() +
         "': no slave node lies opposite to the master within the search distance and angle");
 }
 
-#define SNUG_INSTANTIATE(dim)                                                           \
-  template Contact<dim>::Contact(const mesh::Surface<dim> &, const std::vector<Pair> &, \
-                                 unsigned int, const mesh::Surface<dim>::Field &,       \
-                                 const faces::HeldDirections<dim> &);                   \
-  template void              Contact<dim>::pair(const mesh::Surface<dim>::Field &,      \
-                                                const faces::HeldDirections<dim> &);    \
-  template PairGeometry<dim> Contact<dim>::geometry(unsigned int,                       \
-                                                    const mesh::Surface<dim>::Field &,  \
-                                                    const faces::HeldDirections<dim> &, \
+#define SNUG_INSTANTIATE(dim)                                                                \
+  template Contact<dim>::Contact(const mesh::Surface<dim> &, const std::vector<Pair> &,      \
+                                 unsigned int, const mesh::Surface<dim>::Field &,            \
+                                 const faces::HeldDirections<dim> &, const Position<dim> &); \
+  template void              Contact<dim>::pair(const mesh::Surface<dim>::Field &,           \
+                                                const faces::HeldDirections<dim> &);         \
+  template PairGeometry<dim> Contact<dim>::geometry(unsigned int,                            \
+                                                    const mesh::Surface<dim>::Field &,       \
+                                                    const faces::HeldDirections<dim> &,      \
                                                     std::vector<bool>) const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -4,16 +4,15 @@
 namespace snug::contact {
 template <int dim>
 PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
-  : positions(pair.positions), surface(pair.surface)
+  : positions(pair.positions), surface(pair.surface), slave_motion(pair.slave_motion)
 {
   const auto &parameters = pair.pair.parameters;
   if (parameters.gap != "0")
     offset = std::make_unique<geometry::Formula<dim>>("Gap", parameters.gap);
   if (pair.pair.obstacle)
     {
-      obstacle = choose(obstacle_table<dim>(), pair.pair.obstacle->shape)
-                   .make(*pair.pair.obstacle, pair.slave_size());
-      shift = to_point<dim>(pair.pair.obstacle->displacement);
+      obstacle = pair.obstacle();
+      shift    = pair.obstacle_displacement();
       return;
     }
   master_faces = pair.sides.master;
@@ -90,17 +89,17 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       result.master_boundary = {face.body, face.boundary};
     }
   if (offset)
-    result.gap += offset->value(dealii::Point<dim>(x));
+    result.gap += offset->value(dealii::Point<dim>(slave_motion.point_back(x)));
   return result;
 }
 
 template <int dim>
 double PointGaps<dim>::given(const dealii::Tensor<1, dim> &x) const
 {
-  const auto here   = dealii::Point<dim>(x);
-  double     result = offset ? offset->value(here) : 0.;
+  const auto in_body = dealii::Point<dim>(slave_motion.point_back(x));
+  double     result  = offset ? offset->value(in_body) : 0.;
   if (obstacle)
-    if (const auto d = obstacle->distance(here))
+    if (const auto d = obstacle->distance(dealii::Point<dim>(x)))
       result += d->value;
   return result;
 }

@@ -143,11 +143,11 @@ void DeflationStructure::build_pattern()
   E = CsrMatrix::from_rows(rows, n_vectors);
 }
 
-Deflation::Deflation(const DeflationStructure           &the_structure,
-                     const std::vector<SubdomainSystem> &systems,
-                     const ConstraintRows               &B,
-                     const FactorsOfSubdomains          &factors)
-  : structure(the_structure), layout(structure.coarse.layout), parts(systems.size())
+DeflationVectors::DeflationVectors(const DeflationStructure           &the_structure,
+                                   const std::vector<SubdomainSystem> &systems,
+                                   const ConstraintRows               &B,
+                                   const FactorsOfSubdomains          &factors)
+  : structure(the_structure), parts(systems.size())
 {
   const auto                   values = balanced_vectors(gather_rows(systems, B));
   std::vector<qp::MultiVector> products(systems.size());
@@ -162,16 +162,13 @@ Deflation::Deflation(const DeflationStructure           &the_structure,
       factors[s]->inverse.apply(forces, motions);
       products[s] = transpose_times(forces, motions);
       parts[s].X  = on_boundary(motions, *factors[s]->schur);
-      parts[s].B  = B[s];
-      for (BEntry &entry : parts[s].B)
-        entry.dof = factors[s]->schur->boundary_position()[entry.dof];
     }
   factorize(products);
 }
 
 /// Gather the rows of the subdomains in all neighbourhoods of this rank.
-Deflation::Copies Deflation::gather_rows(const std::vector<SubdomainSystem> &systems,
-                                         const ConstraintRows               &B) const
+DeflationVectors::Copies DeflationVectors::gather_rows(const std::vector<SubdomainSystem> &systems,
+                                                       const ConstraintRows               &B) const
 {
   const SubdomainTable                        &table = structure.coarse.table;
   std::map<unsigned int, std::vector<RowCopy>> out;
@@ -185,7 +182,7 @@ Deflation::Copies Deflation::gather_rows(const std::vector<SubdomainSystem> &sys
           {
             // a new copy has G = 0
             auto &copy        = copies.try_emplace(entry.row).first->second;
-            copy.row          = layout.global_row_of_local(entry.row);
+            copy.row          = structure.coarse.layout.global_row_of_local(entry.row);
             copy.multiplicity = m;
             copy.subdomain    = table.first + t;
             for (unsigned int k = 0; k < table.n_modes; ++k)
@@ -196,14 +193,15 @@ Deflation::Copies Deflation::gather_rows(const std::vector<SubdomainSystem> &sys
           out[rank].push_back(copy.second);
     }
   Copies result;
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
+  for (const auto &message :
+       dealii::Utilities::MPI::some_to_some(structure.coarse.layout.communicator(), out))
     for (const RowCopy &copy : message.second)
       result[copy.subdomain].push_back(copy);
   return result;
 }
 
 /// Return the values of C on the rows of the subdomains of this rank, with ascending ids.
-Deflation::Values Deflation::balanced_vectors(const Copies &copies) const
+DeflationVectors::Values DeflationVectors::balanced_vectors(const Copies &copies) const
 {
   std::map<unsigned int, std::vector<Value>> out;
   unsigned int                               id = structure.first_id;
@@ -227,20 +225,21 @@ Deflation::Values Deflation::balanced_vectors(const Copies &copies) const
     }
   // Messages are sorted by rank, and ids ascend with the ranks.
   Values result;
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(layout.communicator(), out))
+  for (const auto &message :
+       dealii::Utilities::MPI::some_to_some(structure.coarse.layout.communicator(), out))
     for (const Value &value : message.second)
       result[value.subdomain].push_back(value);
   return result;
 }
 
 /// Store the values of C of subdomain s of this rank. @return B'C
-qp::MultiVector Deflation::store(const unsigned int         s,
-                                 const unsigned int         n_dofs,
-                                 const std::vector<BEntry> &B,
-                                 const std::vector<Value>  &values)
+qp::MultiVector DeflationVectors::store(const unsigned int         s,
+                                        const unsigned int         n_dofs,
+                                        const std::vector<BEntry> &B,
+                                        const std::vector<Value>  &values)
 {
   const auto     &rows = structure.parts[s].rows;
-  qp::MultiVector forces(n_dofs, 0), c(layout.n_local());
+  qp::MultiVector forces(n_dofs, 0), c(structure.coarse.layout.n_local());
   parts[s].C = qp::MultiVector(narrow<unsigned int>(rows.size()), 0);
   auto begin = values.begin();
   for (const unsigned int id : structure.parts[s].ids)
@@ -248,20 +247,20 @@ qp::MultiVector Deflation::store(const unsigned int         s,
       const auto end =
         std::find_if(begin, values.end(), [id](const Value &value) { return value.id != id; });
       for (auto value = begin; value != end; ++value)
-        c(layout.local_row(value->row)) = value->value;
+        c(structure.coarse.layout.local_row(value->row)) = value->value;
       qp::MultiVector force(n_dofs);
       add_transposed(B, c, force);
       parts[s].C.append(rows_of(c, rows));
       forces.append(force);
       for (auto value = begin; value != end; ++value)
-        c(layout.local_row(value->row)) = 0.;
+        c(structure.coarse.layout.local_row(value->row)) = 0.;
       begin = end;
     }
   return forces;
 }
 
 /// Assemble E, scale E to unit diagonal, add the shift and factorize.
-void Deflation::factorize(const std::vector<qp::MultiVector> &products)
+void DeflationVectors::factorize(const std::vector<qp::MultiVector> &products)
 {
   CsrMatrix matrix = structure.E;
   for (unsigned int s = 0; s < parts.size(); ++s)
@@ -271,7 +270,7 @@ void Deflation::factorize(const std::vector<qp::MultiVector> &products)
         for (unsigned int j = 0; j < ids.size(); ++j)
           matrix.values[matrix.position(ids[i], ids[j])] += products[s](i, j);
     }
-  sum_over_ranks(matrix.values, layout.communicator());
+  sum_over_ranks(matrix.values, structure.coarse.layout.communicator());
   scale.assign(structure.n_vectors, 1.);
   for (unsigned int i = 0; i < scale.size(); ++i)
     // the diagonal is zero for a vector that balance() has set to zero
@@ -290,7 +289,7 @@ void Deflation::factorize(const std::vector<qp::MultiVector> &products)
 /// The shift leaves a part of C'r, which no later direction could remove, because all directions
 /// are F-orthogonal to C. One step of iterative refinement removes this part; its residual is shift
 /// y.
-qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
+qp::MultiVector DeflationVectors::solve(const qp::MultiVector &b) const
 {
   qp::MultiVector scaled = b, y(structure.n_vectors, b.n_columns()), left = y;
   const auto      rescale = [&](qp::MultiVector &x) {
@@ -307,14 +306,32 @@ qp::MultiVector Deflation::solve(const qp::MultiVector &b) const
   return y;
 }
 
+Deflation::Deflation(const RowLayout                        &the_layout,
+                     std::shared_ptr<const DeflationVectors> the_vectors,
+                     const ConstraintRows                   &B,
+                     const FactorsOfSubdomains              &factors)
+  : layout(the_layout)
+  , vectors(std::move(the_vectors))
+  , structure(vectors->structure)
+  , rows(B.size())
+{
+  for (unsigned int s = 0; s < B.size(); ++s)
+    if (!structure.parts[s].ids.empty())
+      {
+        rows[s] = B[s];
+        for (BEntry &entry : rows[s])
+          entry.dof = factors[s]->schur->boundary_position()[entry.dof];
+      }
+}
+
 /// Return C y.
 qp::MultiVector Deflation::multiply(const qp::MultiVector &y) const
 {
   qp::MultiVector local(layout.n_local(), y.n_columns());
-  for (unsigned int s = 0; s < parts.size(); ++s)
+  for (unsigned int s = 0; s < rows.size(); ++s)
     if (const auto &ids = structure.parts[s].ids; !ids.empty())
       {
-        const auto c = times(parts[s].C, rows_of(y, ids));
+        const auto c = times(vectors->parts[s].C, rows_of(y, ids));
         for (unsigned int k = 0; k < y.n_columns(); ++k)
           for (unsigned int i = 0; i < structure.parts[s].rows.size(); ++i)
             local(structure.parts[s].rows[i], k) = c(i, k);
@@ -326,15 +343,15 @@ std::vector<double> Deflation::orthogonalize(qp::MultiVector &x) const
 {
   const auto      local = layout.to_local(x);
   qp::MultiVector a(structure.n_vectors, x.n_columns()); // (F C)'x
-  for (unsigned int s = 0; s < parts.size(); ++s)
+  for (unsigned int s = 0; s < rows.size(); ++s)
     if (const auto &ids = structure.parts[s].ids; !ids.empty())
       {
-        qp::MultiVector forces(parts[s].X.n_rows(), x.n_columns());
-        add_transposed(parts[s].B, local, forces);
-        add_to_rows(ids, transpose_times(parts[s].X, forces), a);
+        qp::MultiVector forces(vectors->parts[s].X.n_rows(), x.n_columns());
+        add_transposed(rows[s], local, forces);
+        add_to_rows(ids, transpose_times(vectors->parts[s].X, forces), a);
       }
   sum_over_ranks(a, layout.communicator());
-  const auto y = solve(a);
+  const auto y = vectors->solve(a);
   x.add(-1., multiply(y));
   std::vector<double> removed(x.n_columns(), 0.);
   for (unsigned int k = 0; k < x.n_columns(); ++k)
@@ -347,16 +364,17 @@ void Deflation::coarse_correction(qp::MultiVector &lambda, qp::MultiVector &resi
 {
   const auto      r = layout.to_local(residual);
   qp::MultiVector b(structure.n_vectors, lambda.n_columns()); // C'r
-  for (unsigned int s = 0; s < parts.size(); ++s)
+  for (unsigned int s = 0; s < rows.size(); ++s)
     if (const auto &ids = structure.parts[s].ids; !ids.empty())
-      add_to_rows(ids, transpose_times(parts[s].C, rows_of(r, structure.parts[s].rows)), b);
+      add_to_rows(ids, transpose_times(vectors->parts[s].C, rows_of(r, structure.parts[s].rows)),
+                  b);
   sum_over_ranks(b, layout.communicator());
-  const auto y = solve(b);
+  const auto y = vectors->solve(b);
   lambda.add(1., multiply(y));
   qp::MultiVector jumps(layout.n_local(), lambda.n_columns()); // F C y
-  for (unsigned int s = 0; s < parts.size(); ++s)
+  for (unsigned int s = 0; s < rows.size(); ++s)
     if (const auto &ids = structure.parts[s].ids; !ids.empty())
-      add_product(parts[s].B, times(parts[s].X, rows_of(y, ids)), jumps);
+      add_product(rows[s], times(vectors->parts[s].X, rows_of(y, ids)), jumps);
   residual.add(-1., layout.to_owned(jumps));
 }
 } // namespace snug::feti

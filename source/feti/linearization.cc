@@ -27,17 +27,15 @@ bool DualStructure::seeks_soft_modes(const std::vector<SubdomainSystem> &systems
   return dealii::Utilities::MPI::logical_or(slender, layout.communicator());
 }
 
-Linearization::Linearization(const DualStructure                      &the_structure,
-                             const std::vector<SubdomainSystem>       &the_systems,
-                             ConstraintRows                            B,
-                             FactorsOfSubdomains                       factors,
-                             std::shared_ptr<const DeflationStructure> soft_modes)
+Linearization::Linearization(const DualStructure                &the_structure,
+                             const std::vector<SubdomainSystem> &the_systems,
+                             ConstraintRows                      B,
+                             SharedOperators                     shared)
   : structure(the_structure)
   , systems(the_systems)
   , rows(std::move(B))
-  , subdomain_factors(std::move(factors))
+  , operators(std::move(shared))
   , F_diagonal(n_owned(), 0.)
-  , modes(std::move(soft_modes))
 {
   factorize();
   std::vector<double> entries;
@@ -52,13 +50,17 @@ Linearization::Linearization(const DualStructure                      &the_struc
     weight_rows();
   }
   const RunContext::Timer timer(context(), "soft modes");
-  if (!modes)
-    modes = std::make_shared<const DeflationStructure>(structure.coarse,
-                                                       narrow<unsigned int>(systems.size()),
-                                                       find_soft_modes(entries),
-                                                       structure.parameters.coarse_ranks);
-  if (modes->n_vectors > 0)
-    deflation = std::make_unique<Deflation>(*modes, systems, rows, subdomain_factors);
+  auto &[factors, soft_modes, vectors] = operators;
+  if (!soft_modes)
+    soft_modes = std::make_shared<const DeflationStructure>(structure.coarse,
+                                                            narrow<unsigned int>(systems.size()),
+                                                            find_soft_modes(entries),
+                                                            structure.parameters.coarse_ranks);
+  if (soft_modes->n_vectors == 0)
+    return;
+  if (!vectors)
+    vectors = std::make_shared<const DeflationVectors>(*soft_modes, systems, rows, factors);
+  deflation = std::make_unique<Deflation>(layout(), vectors, rows, factors);
 }
 
 /// A factorization may fail on one rank only. throw_collectively() turns this failure into an error
@@ -68,10 +70,9 @@ void Linearization::factorize()
   throw_collectively(context().communicator(), [&]() {
     const RunContext::Timer timer(context(), "factorization");
     for (unsigned int s = 0; s < systems.size(); ++s)
-      if (!subdomain_factors[s])
-        subdomain_factors[s] =
-          std::make_shared<const SubdomainFactors>(systems[s], rows[s],
-                                                   structure.parameters.preconditioner,
+      if (!operators.factors[s])
+        operators.factors[s] =
+          std::make_shared<const SubdomainFactors>(systems[s], structure.parameters.preconditioner,
                                                    structure.cache,
                                                    name_of_subdomain(table(), table().first + s));
   });
@@ -116,7 +117,7 @@ void Linearization::weight_rows()
         // B D^-1 is numbered by the unknowns of the Schur complement.
         if (structure.parameters.scaling == Scaling::stiffness)
           entry.value *= 1. / systems[s].K.diagonal(entry.dof);
-        entry.dof = subdomain_factors[s]->schur->boundary_position()[entry.dof];
+        entry.dof = operators.factors[s]->schur->boundary_position()[entry.dof];
       }
 }
 
@@ -137,7 +138,7 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
       const auto modes_of_s =
-        feti::soft_modes(systems[s], *subdomain_factors[s], columns[s], neighbours[s], first + s);
+        feti::soft_modes(systems[s], *operators.factors[s], columns[s], neighbours[s], first + s);
       if (modes_of_s.mu.empty())
         continue;
       forces.push_back(row_forces(modes_of_s, columns[s], first + s));
@@ -199,7 +200,7 @@ PrimalVectors Linearization::apply_inverse(const PrimalVectors &right_hand_side)
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
       x.emplace_back(systems[s].n_dofs(), right_hand_side[s].n_columns());
-      subdomain_factors[s]->inverse.apply(right_hand_side[s], x.back());
+      operators.factors[s]->inverse.apply(right_hand_side[s], x.back());
     }
   return x;
 }
@@ -276,7 +277,7 @@ void Linearization::precondition(qp::MultiVector &x) const
   qp::MultiVector       result(layout().n_local(), k);
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      const LocalSchur &schur = *subdomain_factors[s]->schur;
+      const LocalSchur &schur = *operators.factors[s]->schur;
       qp::MultiVector   boundary(schur.n_boundary(), k);
       add_transposed(weighted_B[s], local, boundary);
       add_product(weighted_B[s], schur.apply(boundary), result);

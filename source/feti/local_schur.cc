@@ -11,16 +11,15 @@ namespace {
 const double rank_cut = 1e-12;
 } // namespace
 
-LocalSchur::LocalSchur(const SubdomainSystem     &system,
-                       const std::vector<BEntry> &B,
-                       const bool                 lumped,
-                       const FactorCache         &cache,
-                       const std::string         &what)
+LocalSchur::LocalSchur(const SubdomainSystem &system,
+                       const bool             lumped,
+                       const FactorCache     &cache,
+                       const std::string     &what)
   : context(cache.context)
 {
   std::vector<bool> in_boundary(system.n_dofs(), false);
-  for (const BEntry &entry : B)
-    in_boundary[entry.dof] = true;
+  for (const unsigned int dof : system.boundary)
+    in_boundary[dof] = true;
   number(in_boundary);
   if (!boundary_holds(system.R))
     {

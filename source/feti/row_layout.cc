@@ -103,6 +103,7 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   local_rows.erase(std::unique(local_rows.begin(), local_rows.end()), local_rows.end());
   row_forest   = star_forest(comm, n, first, local_rows);
   entry_forest = star_forest(comm, n, first, entry_rows);
+  sort_local_rows(first);
 
   // Degree of a row: the number of entries that the row has on all ranks.
   const PetscInt *degree;
@@ -124,11 +125,30 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
     unknowns.push_back(gathered[entry]);
 }
 
+/// Number the local equality rows before the local contact rows.
+void RowLayout::sort_local_rows(const std::vector<unsigned int> &first_row_of_rank)
+{
+  qp::MultiVector owned(n_owned());
+  for (unsigned int row = 0; row < n_owned(); ++row)
+    owned(row) = is_bounded[row] ? 1. : 0.;
+  const auto                flags = to_local(owned);
+  std::vector<unsigned int> equalities, contacts;
+  for (unsigned int row = 0; row < n_local(); ++row)
+    (flags(row) == 0. ? equalities : contacts).push_back(local_rows[row]);
+  n_equalities = narrow<unsigned int>(equalities.size());
+  local_rows   = equalities;
+  local_rows.insert(local_rows.end(), contacts.begin(), contacts.end());
+  row_forest = star_forest(comm, n_owned(), first_row_of_rank, local_rows);
+}
+
 /// For a row that this rank does not touch, the result is another row's position or n_local().
 unsigned int RowLayout::local_row(unsigned int global_row) const
 {
-  return narrow<unsigned int>(std::lower_bound(local_rows.begin(), local_rows.end(), global_row) -
-                              local_rows.begin());
+  const auto middle = local_rows.begin() + n_equalities;
+  auto       found  = std::lower_bound(local_rows.begin(), middle, global_row);
+  if (found == middle || *found != global_row)
+    found = std::lower_bound(middle, local_rows.end(), global_row);
+  return narrow<unsigned int>(found - local_rows.begin());
 }
 
 qp::MultiVector RowLayout::to_local(const qp::MultiVector &owned) const

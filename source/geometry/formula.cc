@@ -67,6 +67,23 @@ double second_difference(const Function &f, const double h)
 }
 } // namespace
 
+std::optional<double> constant_value(const std::string &text)
+{
+  dealii::FunctionParser<1> parser;
+  try
+    {
+      const SilentErrors guard;
+      // The parser needs a variable. Its name must not occur in users' formulas.
+      parser.initialize("no_variable", text, {});
+      const double value = parser.value(dealii::Point<1>());
+      return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+    }
+  catch (const dealii::ExceptionBase &)
+    {
+      return std::nullopt;
+    }
+}
+
 template <int dim>
 Formula<dim>::Formula(const std::string &entry, const std::string &text)
   : entry(entry), text(text), parser(std::make_unique<dealii::FunctionParser<dim>>())

@@ -1,37 +1,17 @@
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/formula.h>
 #include <snug/geometry/placement.h>
+#include <snug/geometry/rigid_motion.h>
 #include <snug/geometry/wrapped_geometry.h>
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/tensor.h>
 
 namespace snug::geometry {
 namespace {
 const std::string rotate_entry = "Rotate";
 
-/// Return the rotation by @p degrees about an axis, counterclockwise if the axis points to the
-/// viewer. Multiples of 90 degrees are exact, because with the round-off of cos 90 faces would not
-/// lie exactly in coordinate planes, and an axis of revolution would not lie exactly at x = 0.
-dealii::Tensor<2, 3> rotation(unsigned int axis, double degrees)
-{
-  const double         turn  = std::remainder(degrees, 360.);
-  const double         angle = turn * dealii::numbers::PI / 180.;
-  const bool           right = std::remainder(turn, 90.) == 0.;
-  const double         c     = right ? std::round(std::cos(angle)) : std::cos(angle);
-  const double         s     = right ? std::round(std::sin(angle)) : std::sin(angle);
-  const unsigned int   a = (axis + 1) % 3, b = (axis + 2) % 3;
-  dealii::Tensor<2, 3> result;
-  result[axis][axis] = 1.;
-  result[a][a]       = c;
-  result[b][b]       = c;
-  result[a][b]       = -s;
-  result[b][a]       = s;
-  return result;
-}
-
 template <int dim>
-dealii::Tensor<2, dim> rotation(const BodyMeshParameters &parameters)
+dealii::Tensor<2, dim> rotation_of(const BodyMeshParameters &parameters)
 {
   dealii::Tensor<2, 3> whole;
   for (unsigned int d = 0; d < 3; ++d)
@@ -74,7 +54,7 @@ public:
     const auto shifts = per_axis<dim, double>("Shift", parameters.shift, 0., false);
     for (unsigned int d = 0; d < dim; ++d)
       shift[d] = shifts[d];
-    turned = rotation<dim>(parameters);
+    turned = rotation_of<dim>(parameters);
     if (!parameters.warp.empty() && parameters.warp.size() != dim)
       throw bad_entry("Warp", to_text(parameters.warp),
                       "must be " + std::to_string(dim) + " formulas separated by semicolons");

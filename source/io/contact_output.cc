@@ -178,9 +178,10 @@ void ContactOutput<dim>::write(const Sources                  &of,
                                const state::ContactState<dim> &state)
 {
   // The gather is collective, so it must not be called within throw_collectively().
-  const SurfaceFields<dim> fields{of.surface.gather(of.mesh.reference_positions()),
-                                  of.surface.gather(state.positions),
-                                  of.surface.gather(state.displacement)};
+  const auto              &placed = of.placed;
+  const SurfaceFields<dim> fields{placed.to_space(of.surface.gather(of.mesh.reference_positions())),
+                                  placed.to_space(of.surface.gather(state.positions)),
+                                  placed.turned(of.surface.gather(state.displacement))};
   const std::string        stem = "contact-" + padded(series.size(), 4);
   // Extend the series on all ranks, because the next stem depends on its size.
   series.emplace_back(time, stem + ".vtu");

@@ -129,21 +129,36 @@ PointField vector_field(const std::string &name, const Value &value)
           }};
 }
 
+/// Motions of the bodies to their positions.
+template <int dim>
+using Motions = std::vector<geometry::RigidMotion<dim>>;
+
 /// Return the smoothed stress, also of sections with 3 x 3 components, and the von Mises stress
 /// of the smoothed stress, not the mean of the von Mises stresses of the cells. If neither is
 /// written, nothing is computed.
 template <int dim>
 std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &of,
+                                      const Motions<dim>                       &motions,
                                       const state::ContactState<dim>           &state,
                                       const scene::OutputParameters            &parameters)
 {
   if (!parameters.has("stress") && !parameters.has("von_mises"))
     return {};
-  using Stresses      = std::vector<dealii::SymmetricTensor<2, 3>>;
-  const auto stresses = std::make_shared<const Stresses>(
-    nodal_stress(of.mesh, of.bodies, state.positions, state.displacement));
+  using Stresses               = std::vector<dealii::SymmetricTensor<2, 3>>;
   const unsigned int n_regions = n_stress_regions(of.mesh);
-  const auto stress = [stresses, n_regions](const unsigned int node, const unsigned int region) {
+  auto in_bodies = nodal_stress(of.mesh, of.bodies, state.positions, state.displacement);
+  for (unsigned int i = 0; i < in_bodies.size(); ++i)
+    if (const auto &motion = motions[of.mesh.body_of_node(i / n_regions)]; !motion.is_identity())
+      {
+        // The axis across a section does not turn.
+        dealii::Tensor<2, 3> Q = dealii::unit_symmetric_tensor<3>();
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            Q[c][d] = motion.Q[c][d];
+        in_bodies[i] = symmetrize(Q * dealii::Tensor<2, 3>(in_bodies[i]) * transpose(Q));
+      }
+  const auto stresses = std::make_shared<const Stresses>(std::move(in_bodies));
+  const auto stress   = [stresses, n_regions](const unsigned int node, const unsigned int region) {
     return (*stresses)[std::size_t(node) * n_regions + region];
   };
   return {{{"stress", 9},
@@ -176,33 +191,42 @@ void FieldOutput<dim>::write(const Sources                             &of,
                              const typename mesh::BodyMesh<dim>::Field *shape_gradient,
                              const std::vector<double>                 *errors)
 {
-  const auto &mesh      = of.mesh;
-  const auto  subdomain = subdomain_of_cell(mesh, of.tearing);
-  const auto  gradient  = summed(mesh, parameters.has("shape_gradient") ? shape_gradient : nullptr);
-  std::vector<PointField> at_points = stress_fields<dim>(of, state, parameters);
+  const auto  &mesh      = of.mesh;
+  const auto   subdomain = subdomain_of_cell(mesh, of.tearing);
+  const auto   gradient = summed(mesh, parameters.has("shape_gradient") ? shape_gradient : nullptr);
+  Motions<dim> motions;
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+    motions.push_back(of.position.of_body(body));
+  const auto motion = [&](const unsigned int node) -> const geometry::RigidMotion<dim> & {
+    return motions[mesh.body_of_node(node)];
+  };
+  std::vector<PointField> at_points = stress_fields<dim>(of, motions, state, parameters);
   at_points.push_back({{"body", 1}, [&](const unsigned int node, unsigned int, auto &to) {
                          to.push_back(mesh.body_of_node(node));
                        }});
   at_points.push_back(vector_field<dim>("displacement", [&](const unsigned int node) {
-    return state.displacement[node];
+    return motion(node).vector(state.displacement[node]);
   }));
   at_points.push_back(vector_field<dim>("design_displacement", [&](const unsigned int node) {
-    return state.positions[node] - mesh.reference_positions()[node];
+    return motion(node).vector(state.positions[node] - mesh.reference_positions()[node]);
   }));
   if (shape_gradient)
     at_points.push_back(vector_field<dim>("shape_gradient", [&](const unsigned int node) {
       dealii::Tensor<1, dim> v;
       for (unsigned int c = 0; c < dim; ++c)
         v[c] = gradient[std::size_t(dim) * node + c];
-      return v;
+      return motion(node).vector(v);
     }));
   std::vector<CellField> of_cells = {
     {{"region", 1}, [&](const unsigned int cell) { return mesh.cells()[cell].region; }},
     {{"subdomain", 1}, [&](const unsigned int cell) { return subdomain[cell]; }}};
   if (errors)
     of_cells.push_back({{"error", 1}, [&](const unsigned int cell) { return (*errors)[cell]; }});
+  auto positions = state.positions;
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    positions[node] = motion(node).point(positions[node]);
   const auto grid =
-    grid_of(mesh, state.positions, written(at_points, parameters), written(of_cells, parameters));
+    grid_of(mesh, positions, written(at_points, parameters), written(of_cells, parameters));
 
   const MPI_Comm           comm     = mesh.communicator();
   const auto               rank     = dealii::Utilities::MPI::this_mpi_process(comm);

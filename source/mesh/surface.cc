@@ -210,6 +210,42 @@ typename Surface<dim>::Field Surface<dim>::gather(const mesh::Field<dim> &field)
 }
 
 template <int dim>
+Surface<dim> Surface<dim>::moved(const std::vector<geometry::RigidMotion<dim>> &motions) const
+{
+  Surface    result = *this;
+  const auto body   = bodies_of_points();
+  for (unsigned int point = 0; point < n_points(); ++point)
+    result.reference[point] = motions[body[point]].point(reference[point]);
+  for (unsigned int b = 0; b < known_surfaces.size(); ++b)
+    for (auto &known : result.known_surfaces[b])
+      known = known.placed(1., motions[b].Q, motions[b].t);
+  for (unsigned int f = 0; f < surface_faces.size(); ++f)
+    if (const auto &face = surface_faces[f]; face.known)
+      result.surface_faces[f].known =
+        &result.known_surfaces[face.body][face.known - known_surfaces[face.body].data()];
+  return result;
+}
+
+template <int dim>
+std::vector<unsigned int> Surface<dim>::bodies_of_points() const
+{
+  std::vector<unsigned int> result(n_points());
+  for (const auto &face : surface_faces)
+    {
+      for (const unsigned int node : face.nodes)
+        {
+          result[node] = face.body;
+          // The masters of a hanging node need not lie on a face of the surface.
+          for (const auto &master : node_masters[node])
+            result[master.first] = face.body;
+        }
+      for (const unsigned int sample : face.samples)
+        result[sample] = face.body;
+    }
+  return result;
+}
+
+template <int dim>
 std::vector<unsigned int> Surface<dim>::cells_of(const std::vector<unsigned int> &faces) const
 {
   // No two faces have the same nodes.

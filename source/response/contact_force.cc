@@ -9,6 +9,7 @@ namespace {
 template <int dim>
 typename mesh::Surface<dim>::Field
 normal_gradient(const state::StateSolver<dim>            &solver,
+                const unsigned int                        load_case,
                 const contact::Pair                      &pair,
                 const typename mesh::Surface<dim>::Field &positions,
                 const std::vector<double>                &forces,
@@ -21,9 +22,10 @@ normal_gradient(const state::StateSolver<dim>            &solver,
   for (const auto &face : surface.faces())
     if (contact::is_on(face, pair.slave))
       for (const unsigned int node : face.nodes)
-        moved[node] = e;
-  auto       gradient = solver.contact().energy_gradient(positions, moved, forces);
-  const auto of_gaps  = solver.contact().energy_gradient(positions, at_rest, forces);
+        moved[node] = solver.motion(load_case, face.body).vector_back(e);
+  const auto &contact  = solver.contact(load_case);
+  auto        gradient = contact.energy_gradient(positions, moved, forces);
+  const auto  of_gaps  = contact.energy_gradient(positions, at_rest, forces);
   for (unsigned int node = 0; node < gradient.size(); ++node)
     gradient[node] -= of_gaps[node];
   return gradient;
@@ -40,7 +42,7 @@ public:
   void check(const state::StateSolver<dim> &solver) const override
   {
     // Both functions throw for names that do not exist.
-    row_shares(solver, parameters.pair);
+    row_shares(solver, parameters.pair, 0);
     if (parameters.component != Component::normal)
       unit_vector<dim>(parameters);
   }
@@ -48,9 +50,10 @@ public:
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
-    const auto shares = row_shares(solver, parameters.pair);
-    const auto rows   = solver.contact().rows(solver.surface().gather(state.positions));
-    double     force  = 0.;
+    const auto shares = row_shares(solver, parameters.pair, state.load_case);
+    const auto rows =
+      solver.contact(state.load_case).rows(solver.surface().gather(state.positions));
+    double force = 0.;
     for (unsigned int i = 0; i < rows.size(); ++i)
       if (shares[i] != 0.)
         force -=
@@ -64,11 +67,12 @@ public:
 
   /// Return the sum of the forces given at other places.
   std::optional<double> measured(const state::StateSolver<dim>   &solver,
+                                 const unsigned int               load_case,
                                  const std::vector<PressureRows> &of_pairs) const override
   {
     if (parameters.component != Component::normal)
       return {};
-    const auto chosen = chosen_pairs(solver, parameters.pair);
+    const auto chosen = chosen_pairs(solver, parameters.pair, load_case);
     double     force  = 0.;
     for (unsigned int p = 0; p < chosen.size(); ++p)
       if (chosen[p])
@@ -80,7 +84,7 @@ public:
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    const auto    shares = row_shares(solver, parameters.pair);
+    const auto    shares = row_shares(solver, parameters.pair, state.load_case);
     Partials<dim> result;
     // J is linear in the forces, so its derivatives are the factors of value().
     result.forces = shares;
@@ -89,19 +93,19 @@ public:
       return result;
     const auto e    = unit_vector<dim>(parameters);
     const auto x    = solver.surface().gather(state.positions);
-    const auto rows = solver.contact().rows(x);
+    const auto rows = solver.contact(state.load_case).rows(x);
     for (unsigned int i = 0; i < rows.size(); ++i)
       result.forces[i] *= -(rows[i].normal * e);
     // Differentiate pair by pair, because a boundary may be the slave of one pair and the master of
     // another. If it moved in both pairs at once, the coefficients of both sides would add up.
-    const auto &pairs = solver.contact().pairs();
+    const auto &pairs = solver.contact(state.load_case).pairs();
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         std::vector<double> forces(rows.size(), 0.);
         for (unsigned int i = 0; i < rows.size(); ++i)
-          if (solver.contact().places()[i].pair == p)
+          if (solver.contact(state.load_case).places()[i].pair == p)
             forces[i] = -shares[i] * state.contact[i].force;
-        solver.surface().add_owned(normal_gradient(solver, pairs[p], x, forces, e),
+        solver.surface().add_owned(normal_gradient(solver, state.load_case, pairs[p], x, forces, e),
                                    result.positions);
       }
     return result;

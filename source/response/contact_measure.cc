@@ -51,18 +51,19 @@ public:
   bool unbounded_at_edges() const override { return power > integrable_power; }
 
   /// Throw if there is no such pair.
-  void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair); }
+  void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair, 0); }
 
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
-    return measured_of(solver, all_rows(state)).value;
+    return measured_of(solver, state.load_case, all_rows(state)).value;
   }
 
   std::optional<double> measured(const state::StateSolver<dim>   &solver,
+                                 const unsigned int               load_case,
                                  const std::vector<PressureRows> &of_pairs) const override
   {
-    const auto   chosen = chosen_pairs(solver, pair);
+    const auto   chosen = chosen_pairs(solver, pair, load_case);
     PressureRows rows;
     for (unsigned int p = 0; p < chosen.size(); ++p)
       if (chosen[p])
@@ -76,33 +77,37 @@ public:
   }
 
   std::optional<Measured> of_contact(const state::StateSolver<dim> &solver,
+                                     const unsigned int             load_case,
                                      const PressureRows            &rows) const override
   {
-    return measured_of(solver, rows);
+    return measured_of(solver, load_case, rows);
   }
 
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
     // In J(p, A(X)) the areas are functions of the positions at fixed forces.
-    const auto    measured = measured_of(solver, all_rows(state));
+    const auto    measured = measured_of(solver, state.load_case, all_rows(state));
     Partials<dim> result;
     result.forces = measured.by_force;
     result.positions.resize(solver.mesh().n_points());
     // The gradient at the surface nodes is replicated: each rank adds the gradient at its own
     // nodes.
-    solver.surface().add_owned(
-      solver.contact().area_gradient(solver.surface().gather(state.positions), measured.by_area),
-      result.positions);
+    solver.surface().add_owned(solver.contact(state.load_case)
+                                 .area_gradient(solver.surface().gather(state.positions),
+                                                measured.by_area),
+                               result.positions);
     return result;
   }
 
 private:
   /// Return the measure of the counted rows. All other rows have zero derivatives. Contact
   /// points are replicated, so the function needs no communication.
-  Measured measured_of(const state::StateSolver<dim> &solver, const PressureRows &all) const
+  Measured measured_of(const state::StateSolver<dim> &solver,
+                       const unsigned int             load_case,
+                       const PressureRows            &all) const
   {
-    const auto   rows = counted_rows(solver, all.area);
+    const auto   rows = counted_rows(solver, load_case, all.area);
     PressureRows counted;
     for (const auto &[i, share] : rows)
       {
@@ -122,9 +127,10 @@ private:
   }
 
   Counted counted_rows(const state::StateSolver<dim> &solver,
+                       const unsigned int             load_case,
                        const std::vector<double>     &areas) const
   {
-    const auto shares  = row_shares(solver, pair);
+    const auto shares  = row_shares(solver, pair, load_case);
     double     largest = 0.;
     for (unsigned int i = 0; i < shares.size(); ++i)
       if (shares[i] != 0.)
@@ -132,7 +138,7 @@ private:
     Counted result;
     for (unsigned int i = 0; i < shares.size(); ++i)
       // Scale 0: supports hold the row entirely, so the row has no multiplier.
-      if (shares[i] != 0. && solver.gluing().contact_scales()[i] != 0. &&
+      if (shares[i] != 0. && solver.gluing(load_case).contact_scales()[i] != 0. &&
           areas[i] > smallest_area * largest)
         result.emplace_back(i, shares[i]);
     return result;
@@ -146,10 +152,12 @@ private:
 } // namespace
 
 template <int dim>
-std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std::string &name)
+std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver,
+                               const std::string             &name,
+                               const unsigned int             load_case)
 {
   std::vector<bool> chosen;
-  for (const auto &pair : solver.contact().named_pairs())
+  for (const auto &pair : solver.contact(load_case).named_pairs())
     // Accept both orders, because the program may have chosen the slave side and users need
     // not know its choice.
     chosen.push_back(name.empty() || name == pair.name() ||
@@ -160,15 +168,18 @@ std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std:
 }
 
 template <int dim>
-std::vector<double> row_shares(const state::StateSolver<dim> &solver, const std::string &name)
+std::vector<double> row_shares(const state::StateSolver<dim> &solver,
+                               const std::string             &name,
+                               const unsigned int             load_case)
 {
-  const auto          chosen = chosen_pairs(solver, name);
-  std::vector<double> result(solver.contact().n_rows(), name.empty() ? 1. : 0.);
+  const auto         &contact = solver.contact(load_case);
+  const auto          chosen  = chosen_pairs(solver, name, load_case);
+  std::vector<double> result(contact.n_rows(), name.empty() ? 1. : 0.);
   if (name.empty()) // exactly 1, not a sum of shares
     return result;
   for (unsigned int p = 0; p < chosen.size(); ++p)
     if (chosen[p])
-      for (const auto &[row, share] : solver.contact().named_pairs()[p].rows)
+      for (const auto &[row, share] : contact.named_pairs()[p].rows)
         result[row] += share;
   return result;
 }
@@ -182,14 +193,18 @@ std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &p
   return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries, power);
 }
 
-template std::vector<bool>   chosen_pairs(const state::StateSolver<2> &, const std::string &);
-template std::vector<bool>   chosen_pairs(const state::StateSolver<3> &, const std::string &);
-template std::vector<double> row_shares(const state::StateSolver<2> &, const std::string &);
+template std::vector<bool>
+chosen_pairs(const state::StateSolver<2> &, const std::string &, unsigned int);
+template std::vector<bool>
+chosen_pairs(const state::StateSolver<3> &, const std::string &, unsigned int);
+template std::vector<double>
+row_shares(const state::StateSolver<2> &, const std::string &, unsigned int);
 template std::unique_ptr<Response<2>> contact_measure(const ResponseParameters &,
                                                       const Measure &,
                                                       const std::vector<std::string> &,
                                                       double);
-template std::vector<double> row_shares(const state::StateSolver<3> &, const std::string &);
+template std::vector<double>
+row_shares(const state::StateSolver<3> &, const std::string &, unsigned int);
 template std::unique_ptr<Response<3>> contact_measure(const ResponseParameters &,
                                                       const Measure &,
                                                       const std::vector<std::string> &,

@@ -54,6 +54,14 @@ void check_all_loads(const Scene &scene, const Origins &origins)
       load_case.loads.check(section, [&](const auto &entry, const auto &value, const auto &face) {
         require_face(scene, section, entry, value, face);
       });
+      auto names = names_of(scene.bodies);
+      for (const auto &obstacle : scene.obstacles)
+        names.push_back(obstacle.name);
+      load_case.check_positions(section, names);
+      section.require(load_case.positions.empty() ||
+                        scene.model != mesh::Idealization::Kind::axisymmetric,
+                      "Position", to_text(load_case.positions, ';'),
+                      "must be empty for Model = axisymmetric");
       auto held_here = held;
       load_case.loads.check_displacements(section, "", held_here);
     }

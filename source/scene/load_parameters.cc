@@ -1,6 +1,10 @@
 #include <snug/base/section_check.h>
 #include <snug/geometry/formula.h>
+#include <snug/geometry/rigid_motion.h>
 #include <snug/scene/check.h>
+
+#include <algorithm>
+#include <stdexcept>
 
 namespace snug::scene {
 namespace {
@@ -59,8 +63,53 @@ void LoadCaseParameters::declare(Entries &entries)
 {
   entries.add("Weight", weight, at_least(0., "must not be negative"),
               "The weight of this load case in the combined objective.");
+  entries.add("Cases", cases, between(1., 1000.),
+              "The number n of load cases that this section stands for: NAME-0 to NAME-(n-1). "
+              "Numbers in all entries of the section may then be formulas of the case number i: "
+              "'punch.top: 0 0 -100*(i+1)'.");
+  entries.add(
+    "Position", access(positions, ';'),
+    allowed("a list 'body or obstacle: motion, motion, ...; ...' of the motions 'rotate axis "
+            "degrees', 'rotate axis degrees about x y z' and 'shift x y z'"),
+    "The motions, one after the other, that bring bodies and obstacles to their places in this "
+    "load "
+    "case: 'wheel: rotate z 12 about 100 0; pinion: rotate z -18'. The axis is x, y or z, in 2D z; "
+    "numbers contain no blanks. Supports, loads, prescribed displacements and displacements turn "
+    "with their body. Units: degrees, length.");
+  entries.add(
+    "Loads in space", loads_in_space,
+    "Whether forces, moments, tractions, body forces and gravity keep their directions in "
+    "space, instead of turning with the bodies that 'Position' moves. Pressures always "
+    "turn with the bodies. Formulas are evaluated at the place that the scene gives to "
+    "the body.");
   declare_gravity(entries, gravity);
   loads.declare(entries, "body.boundary", "punch.top");
+}
+
+void LoadCaseParameters::check_positions(const SectionCheck             &section,
+                                         const std::vector<std::string> &names) const
+{
+  std::set<std::string> moved;
+  for (const auto &[name, motion] : positions)
+    {
+      const auto require = [&](const bool good, const std::string &allowed) {
+        section.require(good, "Position", to_text(positions, ';'), allowed);
+      };
+      require(std::find(names.begin(), names.end(), name) != names.end(),
+              "there is no body or obstacle '" + quotable(name) + "'");
+      require(moved.insert(name).second, "'" + name + "' occurs twice");
+      try
+        {
+          if (section.dimension == 2)
+            geometry::rigid_motion<2>(motion);
+          else
+            geometry::rigid_motion<3>(motion);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          require(false, "motion of '" + name + "': " + error.what());
+        }
+    }
 }
 
 void LoadParameters::check(const SectionCheck &section, const RequireKey &require_key) const

@@ -1,4 +1,5 @@
 #include <snug/mesh_file/import_mesh.h>
+#include <snug/scene/cases.h>
 #include <snug/scene/check.h>
 #include <snug/scene/read_scene.h>
 
@@ -68,7 +69,7 @@ std::vector<Statement> statements_of(const SceneSource &source)
       throw Origins(statement.origin, {})
         .error(statement.path(), statement.value,
                "must not contain '#' or line ends, nor end with '\\'");
-  return statements;
+  return with_cases(statements);
 }
 
 /// Return the last value of the entry @p path, a list of names.

@@ -198,14 +198,15 @@ time_across_face(const state::StateSolver<dim> &solver, const Nodes<dim> &X, con
 
 /// Return the derivatives of the coefficients of the rows of B along a velocity. Collective.
 template <int dim>
-state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim> &solver,
-                                            const Nodes<dim>              &X,
-                                            const Nodes<dim>              &V,
-                                            const GradientParameters      &parameters)
+state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim>  &solver,
+                                            const state::ContactState<dim> &state,
+                                            const Nodes<dim>               &V,
+                                            const GradientParameters       &parameters)
 {
+  const auto  &X    = state.positions;
   const double time = time_across_face(solver, X, V);
   if (parameters.derivatives == Derivatives::exact || time == 0.)
-    return solver.row_derivatives(X, V);
+    return solver.row_derivatives(X, V, state.load_case);
   const auto                  stencil = stencil_of(parameters.derivatives);
   const double                step    = parameters.semi_analytic_step * time;
   state::RowCoefficients<dim> result;
@@ -214,7 +215,7 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim> &solve
       auto x = X;
       for (unsigned int a = 0; a < X.size(); ++a)
         x[a] += stencil.places[k] * step * V[a];
-      const auto rows = solver.rows(x);
+      const auto rows = solver.rows(x, state.load_case);
       if (k == 0)
         {
           result = rows;
@@ -247,9 +248,10 @@ KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
                             const GradientParameters            &parameters)
 {
   const unsigned int k         = velocities.size();
-  const auto        &layout    = solver.gluing().layout();
+  const auto        &gluing    = solver.gluing(state.load_case);
+  const auto        &layout    = gluing.layout();
   const auto         lambda    = layout.to_local(state.dual.lambda);
-  const auto         rows      = solver.rows(state.positions);
+  const auto         rows      = solver.rows(state.positions, state.load_case);
   const auto         tractions = solver.resultants().tractions(state.positions);
   KktVectors         result;
   for (const auto &u : state.u)
@@ -266,9 +268,8 @@ KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
   std::vector<feti::BEntry> B_derivative;
   for (unsigned int j = 0; j < k; ++j)
     {
-      const auto derivative =
-        row_derivatives<dim>(solver, state.positions, velocities[j], parameters);
-      const auto g = solver.gluing().right_hand_side_derivative(rows, derivative, state.load_case);
+      const auto derivative = row_derivatives<dim>(solver, state, velocities[j], parameters);
+      const auto g          = gluing.right_hand_side_derivative(rows, derivative, state.load_case);
       std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
       const auto changes = solver.resultants().traction_derivatives(state.positions, velocities[j]);
       for (unsigned int s = 0; s < state.u.size(); ++s)
@@ -276,7 +277,7 @@ KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
           const SubdomainDerivative<dim> subdomain{solver, state, differences.get(), s};
           double                        *ft = result.primal[s].column(j);
           subdomain.add_faces(velocities[j], tractions, changes, ft);
-          solver.gluing().fill_B_derivative(s, rows, derivative, B_derivative);
+          gluing.fill_B_derivative(s, rows, derivative, B_derivative);
           add_row_derivatives(B_derivative, lambda, state.u[s], ft, Bu.column(j));
         }
     }

@@ -48,8 +48,8 @@ KktVectors state_partials(const state::StateSolver<dim>    &solver,
                           const state::ContactState<dim>   &state,
                           const std::vector<Partials<dim>> &partials)
 {
-  const auto  &of_contact = solver.gluing().contact_of_row();
-  const auto  &scales     = solver.gluing().contact_scales();
+  const auto  &of_contact = solver.gluing(state.load_case).contact_of_row();
+  const auto  &scales     = solver.gluing(state.load_case).contact_scales();
   KktVectors   result;
   unsigned int k = partials.size();
   result.dual    = qp::MultiVector(state.dual.lambda.n_rows(), k);
@@ -173,7 +173,7 @@ Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
     }
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
     result.displacement.push_back(state::nodal_values(problem.solver, derivatives.primal, j));
-  const auto &gluing = problem.solver.gluing();
+  const auto &gluing = problem.solver.gluing(problem.state.load_case);
   const auto &scales = gluing.contact_scales();
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
     {

@@ -16,9 +16,9 @@ void add_rows(const state::StateSolver<dim>  &solver,
               Field<dim>                     &gradient)
 {
   const auto         &surface = solver.surface();
-  const auto         &scales  = solver.gluing().contact_scales();
+  const auto         &scales  = solver.gluing(state.load_case).contact_scales();
   const auto          X       = surface.gather(state.positions);
-  const auto          eta     = solver.gluing().gather_contact(adjoint.dual.column(j));
+  const auto          eta = solver.gluing(state.load_case).gather_contact(adjoint.dual.column(j));
   std::vector<double> of_eta, of_lambda;
   for (unsigned int i = 0; i < scales.size(); ++i)
     {
@@ -27,11 +27,11 @@ void add_rows(const state::StateSolver<dim>  &solver,
     }
   // The contact energy force (c.u - gap) without its gap is linear in u.
   auto       sum  = surface.gather(state.displacement);
-  const auto of_u = solver.contact().energy_gradient(X, sum, of_eta);
+  const auto of_u = solver.contact(state.load_case).energy_gradient(X, sum, of_eta);
   sum             = surface.gather(state::nodal_values(solver, adjoint.primal, j));
-  const auto of_w = solver.contact().energy_gradient(X, sum, of_lambda);
+  const auto of_w = solver.contact(state.load_case).energy_gradient(X, sum, of_lambda);
   sum.assign(sum.size(), {});
-  auto total = solver.contact().energy_gradient(X, sum, of_lambda);
+  auto total = solver.contact(state.load_case).energy_gradient(X, sum, of_lambda);
   for (unsigned int a = 0; a < total.size(); ++a)
     total[a] += of_u[a] - of_w[a];
   surface.add_owned(total, gradient);
@@ -47,13 +47,14 @@ void add_held(const state::StateSolver<dim>  &solver,
 {
   if (!solver.held().follow_positions())
     return;
-  const auto rows = solver.rows(state.positions);
+  const auto rows = solver.rows(state.positions, state.load_case);
   Field<dim> sum(gradient.size());
-  solver.held().add_energy_gradient(state.positions, state.displacement,
-                                    solver.gluing().reactions(adjoint.dual.column(j), rows), sum);
-  solver.held().add_energy_gradient(state.positions, state::nodal_values(solver, adjoint.primal, j),
-                                    solver.gluing().reactions(state.dual.lambda.column(0), rows),
-                                    sum);
+  solver.held().add_energy_gradient(
+    state.positions, state.displacement,
+    solver.gluing(state.load_case).reactions(adjoint.dual.column(j), rows), sum);
+  solver.held().add_energy_gradient(
+    state.positions, state::nodal_values(solver, adjoint.primal, j),
+    solver.gluing(state.load_case).reactions(state.dual.lambda.column(0), rows), sum);
   for (unsigned int a = 0; a < sum.size(); ++a)
     gradient[a] -= sum[a];
 }

@@ -17,7 +17,7 @@ template <int dim>
 qp::RowSet strong_rows(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state)
 {
   qp::RowSet  rows       = solver.feti(state).bounded();
-  const auto &of_contact = solver.gluing().contact_of_row();
+  const auto &of_contact = solver.gluing(state.load_case).contact_of_row();
   for (unsigned int i = 0; i < rows.size(); ++i)
     rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
   return rows;

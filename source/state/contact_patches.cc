@@ -12,7 +12,8 @@ template <int dim>
 std::map<unsigned int, std::vector<unsigned int>> connected_rows(const StateSolver<dim>  &solver,
                                                                  const ContactState<dim> &state)
 {
-  const auto               &places = solver.contact().places();
+  const auto               &contact = solver.contact(state.load_case);
+  const auto               &places  = contact.places();
   std::vector<unsigned int> first(places.size());
   std::iota(first.begin(), first.end(), 0u);
   const auto root = [&first](unsigned int row) {
@@ -25,7 +26,7 @@ std::map<unsigned int, std::vector<unsigned int>> connected_rows(const StateSolv
   for (unsigned int i = 0; i < places.size(); ++i)
     if (state.contact[i].strong)
       row_at[{places[i].pair, places[i].slave}] = i;
-  for (unsigned int pair = 0; pair < solver.contact().pairs().size(); ++pair)
+  for (unsigned int pair = 0; pair < contact.pairs().size(); ++pair)
     for (const auto &face : solver.surface().faces())
       {
         std::vector<unsigned int> roots;
@@ -47,13 +48,14 @@ std::map<unsigned int, std::vector<unsigned int>> connected_rows(const StateSolv
 /// Return ContactPatch::width.
 template <int dim>
 double width(const StateSolver<dim>                   &solver,
+             const std::vector<contact::RowPlace>     &places,
              const std::vector<unsigned int>          &rows,
              const typename mesh::Surface<dim>::Field &x,
              const std::vector<double>                &sizes)
 {
   dealii::Tensor<1, dim> mean;
   double                 size = 0., at_support = 1.;
-  const auto node = [&](unsigned int row) { return solver.contact().places()[row].slave; };
+  const auto             node = [&](unsigned int row) { return places[row].slave; };
   for (const unsigned int row : rows)
     {
       mean += x[node(row)] / double(rows.size());
@@ -81,20 +83,22 @@ template <int dim>
 std::vector<ContactPatch> contact_patches(const StateSolver<dim>  &solver,
                                           const ContactState<dim> &state)
 {
-  const auto                x     = solver.surface().gather(state.positions);
-  const auto                sizes = contact::node_face_sizes(solver.surface(), x);
+  const auto               &contact = solver.contact(state.load_case);
+  const auto               &places  = contact.places();
+  const auto                x       = solver.surface().gather(state.positions);
+  const auto                sizes   = contact::node_face_sizes(solver.surface(), x);
   std::vector<ContactPatch> patches;
-  std::vector<double>       forces, of_pair(solver.contact().pairs().size(), 0.);
+  std::vector<double>       forces, of_pair(contact.pairs().size(), 0.);
   std::vector<bool>         is_open(of_pair.size(), false);
-  for (unsigned int i = 0; i < solver.contact().places().size(); ++i)
+  for (unsigned int i = 0; i < places.size(); ++i)
     if (!state.contact[i].strong)
-      is_open[solver.contact().places()[i].pair] = true;
+      is_open[places[i].pair] = true;
   for (const auto &[first, rows] : connected_rows(solver, state))
     {
-      const unsigned int pair = solver.contact().places()[first].pair;
+      const unsigned int pair = places[first].pair;
       patches.push_back({pair, rows});
-      patches.back().width =
-        is_open[pair] ? width(solver, rows, x, sizes) : std::numeric_limits<double>::infinity();
+      patches.back().width = is_open[pair] ? width(solver, places, rows, x, sizes)
+                                           : std::numeric_limits<double>::infinity();
       forces.push_back(0.);
       for (const unsigned int row : rows)
         forces.back() += state.contact[row].force;

@@ -77,12 +77,13 @@ void describe_contact(const StateSolver<dim>     &solver,
   // g - B u is the remaining gap, in the units of the scaled rows.
   slack.add(-1., feti.linearization().multiply_B(state.u));
   const std::vector<double> flags(state.dual.active.begin(), state.dual.active.end());
-  const auto               &gluing = solver.gluing();
+  const auto               &gluing = solver.gluing(state.load_case);
   const auto                lambda = gluing.gather_contact(state.dual.lambda.column(0));
   const auto                gaps   = gluing.gather_contact(slack.column(0));
   const auto                F_ii   = gluing.gather_contact(feti.diagonal().data());
   const auto                active = gluing.gather_contact(flags.data());
-  const auto areas = solver.contact().areas(solver.surface().gather(state.positions));
+  const auto                areas =
+    solver.contact(state.load_case).areas(solver.surface().gather(state.positions));
   // Maximum lambda_i, maximum F_ii lambda_i, with which gaps are compared, and maximum area.
   double largest = 0., largest_gap = 0., largest_area = 0.;
   for (unsigned int i = 0; i < lambda.size(); ++i)
@@ -122,7 +123,7 @@ template <int dim>
 std::vector<std::string> free_bodies(const StateSolver<dim> &solver, const ContactState<dim> &state)
 {
   const auto &feti       = solver.feti(state);
-  const auto &of_contact = solver.gluing().contact_of_row();
+  const auto &of_contact = solver.gluing(state.load_case).contact_of_row();
   qp::RowSet  rows       = feti.bounded();
   for (unsigned int i = 0; i < rows.size(); ++i)
     rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
@@ -185,7 +186,7 @@ void recover_contact_results(const StateSolver<dim>     &solver,
   state.displacement = nodal_values(solver, u, 0);
   describe_energies(solver, state);
   describe_contact(solver, rows, state);
-  sum_up_contact(solver.contact(), rows, state);
+  sum_up_contact(solver.contact(state.load_case), rows, state);
   add_reactions(solver, rows, state);
   state.validity    = check_validity(solver, rows.contact, state);
   state.free_bodies = free_bodies(solver, state);

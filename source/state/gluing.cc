@@ -1,5 +1,7 @@
 #include <snug/state/gluing.h>
 
+#include <set>
+
 namespace snug::state {
 namespace {
 /// A direction held at a node, q . u = s, with its derivatives.
@@ -35,8 +37,9 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
                     const mesh::Tearing                       &tearing,
                     const mesh::Surface<dim>                  &surface,
                     const supports::DirichletConstraints<dim> &held,
-                    const RowCoefficients<dim>                &reference)
-  : held(held), rows(mesh, tearing, surface, held, reference)
+                    const RowCoefficients<dim>                &reference,
+                    const std::vector<unsigned int>           &clusters)
+  : held(held), rows(mesh, tearing, surface, held, reference, clusters)
 {
   for (const auto &row : rows.owned)
     // n_contact_rows() stands for rows of gluing and supports.
@@ -52,6 +55,15 @@ std::vector<unsigned int> Gluing<dim>::vanished_rows() const
     if (rows.scales[i] == 0.)
       vanished.push_back(i);
   return vanished;
+}
+
+template <int dim>
+std::vector<unsigned int> Gluing<dim>::boundary(const unsigned int s) const
+{
+  std::set<unsigned int> unknowns;
+  for (const auto &entry : rows.entries[s])
+    unknowns.insert(entry.dof);
+  return {unknowns.begin(), unknowns.end()};
 }
 
 /// Fill the entries of the reference geometry, also where a value happens to be zero at this

@@ -27,18 +27,49 @@ struct GluingRows<dim>::Message
 };
 
 template <int dim>
+std::vector<unsigned int>
+contact_clusters(const unsigned int                                         n_nodes,
+                 const std::vector<const std::vector<contact::Row<dim>> *> &positions)
+{
+  std::vector<unsigned int> root(n_nodes);
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](unsigned int i) {
+    while (root[i] != i)
+      i = root[i] = root[root[i]];
+    return i;
+  };
+  for (const auto *rows : positions)
+    for (const auto &row : *rows)
+      for (const auto &c : row.coefficients)
+        {
+          const unsigned int a = find(row.coefficients.front().first);
+          const unsigned int b = find(c.first);
+          // The root is the first node of its cluster, for any order of the rows.
+          root[std::max(a, b)] = std::min(a, b);
+        }
+  for (unsigned int node = 0; node < n_nodes; ++node)
+    root[node] = find(node);
+  return root;
+}
+
+template <int dim>
 GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
                             const mesh::Tearing                       &tearing,
                             const mesh::Surface<dim>                  &surface,
                             const supports::DirichletConstraints<dim> &held,
-                            const RowCoefficients<dim>                &reference)
+                            const RowCoefficients<dim>                &reference,
+                            const std::vector<unsigned int>           &clusters)
   : mesh(mesh), surface(surface), held(held)
 {
   // The order matters, because scales need the copies of the surface nodes, and the numbers of
   // contact rows come after those of gluing and supports on the same rank.
   collect_surface(tearing);
   scale_rows(reference);
-  const auto           ranks = assign_row_owners(reference.contact);
+  // The rank of the first node of a cluster owns all rows at the nodes of the cluster, so that
+  // B D^-1 B' is block diagonal over ranks.
+  std::vector<unsigned int> ranks;
+  for (const unsigned int node : clusters)
+    ranks.push_back(mesh.owner_of_global(surface.global_node(node)));
   const auto           nodes = collect_copies(tearing, ranks);
   std::vector<Message> messages;
   number_node_rows(nodes, reference, messages);
@@ -98,33 +129,6 @@ void GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
       }
   MPI_Allreduce(MPI_IN_PLACE, copies.data(), copies.size(), MPI_UNSIGNED, MPI_SUM,
                 mesh.communicator());
-}
-
-template <int dim>
-std::vector<unsigned int>
-GluingRows<dim>::assign_row_owners(const std::vector<contact::Row<dim>> &contact_rows) const
-{
-  // Contact rows that share nodes form clusters. The rank of the first node of a cluster owns all
-  // rows at the nodes of the cluster, so that B D^-1 B' is block diagonal over ranks.
-  std::vector<unsigned int> root(surface.n_nodes());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](unsigned int i) {
-    while (root[i] != i)
-      i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const auto &row : contact_rows)
-    for (const auto &c : row.coefficients)
-      {
-        const unsigned int a = find(row.coefficients.front().first);
-        const unsigned int b = find(c.first);
-        // The root is the first node of its cluster, for any order of the rows.
-        root[std::max(a, b)] = std::min(a, b);
-      }
-  std::vector<unsigned int> ranks;
-  for (unsigned int i = 0; i < surface.n_nodes(); ++i)
-    ranks.push_back(mesh.owner_of_global(surface.global_node(find(i))));
-  return ranks;
 }
 
 template <int dim>
@@ -296,6 +300,10 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
       entry.local_row = layout->local_row(entry.local_row);
 }
 
+template std::vector<unsigned int>
+contact_clusters(unsigned int, const std::vector<const std::vector<contact::Row<2>> *> &);
+template std::vector<unsigned int>
+contact_clusters(unsigned int, const std::vector<const std::vector<contact::Row<3>> *> &);
 template class GluingRows<2>;
 template class GluingRows<3>;
 } // namespace snug::state

@@ -36,15 +36,17 @@ void add_supports(const StateSolver<dim>     &solver,
 {
   std::map<std::string, std::vector<Force<dim>>> forces;
   std::vector<std::string>                       names; // in the order of the nodes
-  for (const auto &force :
-       solver.held().forces(state.positions,
-                            solver.gluing().reactions(state.dual.lambda.column(0), rows)))
+  for (const auto &force : solver.held().forces(
+         state.positions,
+         solver.gluing(state.load_case).reactions(state.dual.lambda.column(0), rows)))
     {
       if (force.face.empty())
         continue;
       if (forces.count(force.face) == 0)
         names.push_back(force.face);
-      forces[force.face].emplace_back(force.position, resultant(solver, force.value));
+      const auto motion = solver.motion(state.load_case, force.body);
+      forces[force.face].emplace_back(motion.point(force.position),
+                                      resultant(solver, motion.vector(force.value)));
     }
   state.reactions.clear();
   for (const auto &name : names)
@@ -67,9 +69,17 @@ void add_loads(const StateSolver<dim> &solver, ContactState<dim> &state)
 {
   double      sums[dim] = {};
   const auto &feti      = solver.feti(state);
-  for (const auto &f : feti.loads())
-    for (unsigned int i = 0; i < f.n_rows(); ++i)
-      sums[i % dim] += f(i);
+  for (unsigned int s = 0; s < feti.loads().size(); ++s)
+    {
+      const auto            &f = feti.loads()[s];
+      dealii::Tensor<1, dim> of_subdomain;
+      for (unsigned int i = 0; i < f.n_rows(); ++i)
+        of_subdomain[i % dim] += f(i);
+      of_subdomain =
+        solver.motion(state.load_case, solver.tearing().subdomains[s].body).vector(of_subdomain);
+      for (unsigned int c = 0; c < dim; ++c)
+        sums[c] += of_subdomain[c];
+    }
   MPI_Allreduce(MPI_IN_PLACE, sums, dim, MPI_DOUBLE, MPI_SUM, solver.context().communicator());
   for (unsigned int c = 0; c < dim; ++c)
     state.load[c] = sums[c];
@@ -82,6 +92,7 @@ template <int dim>
 dealii::Tensor<1, dim> place(const contact::Row<dim>                  &row,
                              const unsigned int                        slave,
                              const std::vector<bool>                  &on_slave_side,
+                             const contact::PlacedSurface<dim>        &placed,
                              const typename mesh::Surface<dim>::Field &x)
 {
   dealii::Tensor<1, dim> sum;
@@ -91,8 +102,9 @@ dealii::Tensor<1, dim> place(const contact::Row<dim>                  &row,
     if (on_slave_side[node])
       {
         ++n;
-        weights += c * row.normal;
-        sum += (c * row.normal) * x[node];
+        const double share = placed.turned(node, c) * row.normal;
+        weights += share;
+        sum += share * x[node];
       }
   return n == 1 ? x[slave] : sum / weights;
 }
@@ -104,9 +116,10 @@ void add_places(const StateSolver<dim>     &solver,
                 const RowCoefficients<dim> &rows,
                 ContactState<dim>          &state)
 {
-  const auto                    &contact = solver.contact();
-  const auto                     x       = solver.surface().gather(state.positions);
-  const auto                     sizes   = contact::node_face_sizes(solver.surface(), x);
+  const auto                    &contact = solver.contact(state.load_case);
+  const auto                    &placed  = contact.placed_surface();
+  const auto                     x     = placed.to_space(solver.surface().gather(state.positions));
+  const auto                     sizes = contact::node_face_sizes(solver.surface(), x);
   std::vector<std::vector<bool>> on_slave_side;
   for (const auto &pair : contact.pairs())
     {
@@ -127,7 +140,7 @@ void add_places(const StateSolver<dim>     &solver,
           const auto &[pair, slave, of] = contact.places()[i];
           const auto &point             = state.contact[i];
           const auto &row               = rows.contact[i];
-          const auto  at                = place<dim>(row, slave, on_slave_side[pair], x);
+          const auto  at                = place<dim>(row, slave, on_slave_side[pair], placed, x);
           const auto  force             = share * point.force;
           forces.emplace_back(at, resultant(solver, -force * row.normal));
           of_pair.centre += force * at;
@@ -140,7 +153,10 @@ void add_places(const StateSolver<dim>     &solver,
             }
         }
       if (named.obstacle)
-        of_pair.centre = contact::to_point<dim>(named.obstacle->point);
+        of_pair.centre = solver.model()
+                           .load_cases[state.load_case]
+                           .position.of_obstacle(named.obstacle->name)
+                           .point(contact::to_point<dim>(named.obstacle->point));
       else if (sum > 0.)
         of_pair.centre /= sum;
       of_pair.moment = moment_about<dim>(of_pair.centre, forces);
@@ -160,7 +176,7 @@ void add_reactions(const StateSolver<dim>     &solver,
   for (const auto &reaction : state.reactions)
     state.balance += reaction.force;
   for (unsigned int p = 0; p < state.pairs.size(); ++p)
-    if (solver.contact().named_pairs()[p].obstacle)
+    if (solver.contact(state.load_case).named_pairs()[p].obstacle)
       state.balance += resultant(solver, state.pairs[p].force);
 }
 

@@ -76,11 +76,15 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   if (mesh.idealization().is_axisymmetric())
     check_radii(mesh, model.body_names);
   throw_collectively(context.communicator(), [&]() { check_reference(*this); });
-  held    = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
-                                                                  model.load_cases.size(), positions);
-  contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(),
-                                                    surface.gather(positions),
-                                                    held->directions(surface, positions));
+  held = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
+                                                               model.load_cases.size(), positions);
+  make_positions();
+  const auto x          = surface.gather(positions);
+  const auto directions = held->directions(surface, positions);
+  for_each_position([&](PositionProblem<dim> &at) {
+    at.contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(), x,
+                                                         directions, at.position);
+  });
   systems.resize(tearing.subdomains.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
@@ -95,41 +99,99 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   glue(positions);
 }
 
-/// Build everything that depends on which nodes are paired.
+/// Make one problem for each position. Load cases of equal position share it.
 template <int dim>
-void StateProblem<dim>::glue(const Field &positions)
+void StateProblem<dim>::make_positions()
 {
-  forget();
-  soft_modes.reset();
-  structure.reset();
-  gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows(positions));
-  structure =
-    std::make_unique<const feti::DualStructure>(gluing->layout(),
-                                                subdomain_table(mesh, tearing, model.body_names),
-                                                model.feti, factor_cache);
-  pairs_of_rows = {{}, narrow<unsigned int>(contact->pairs().size()), dim};
-  for (const unsigned int i : gluing->contact_of_row())
-    pairs_of_rows.of_row.push_back(i < contact->n_rows() ? contact->places()[i].pair
-                                                         : pairs_of_rows.n);
-  paired_at = positions;
+  for (const auto &load_case : model.load_cases)
+    {
+      const auto found = std::find_if(problems.begin(), problems.end(), [&](const auto &at) {
+        return at->position == load_case.position;
+      });
+      problem_of_case.push_back(narrow<unsigned int>(found - problems.begin()));
+      if (found == problems.end())
+        problems.push_back(std::make_unique<PositionProblem<dim>>(load_case.position));
+    }
 }
 
-/// Destroy the matrices and loads of the present geometry.
+/// Call @p pair for each position. An error of the input names the load case.
+template <int dim>
+void StateProblem<dim>::for_each_position(
+  const std::function<void(PositionProblem<dim> &)> &pair) const
+{
+  for (unsigned int i = 0; i < problems.size(); ++i)
+    try
+      {
+        pair(*problems[i]);
+      }
+    catch (const InputError &error)
+      {
+        const auto first = std::find(problem_of_case.begin(), problem_of_case.end(), i);
+        throw InputError(error.what() +
+                         place_of(model, narrow<unsigned int>(first - problem_of_case.begin())));
+      }
+}
+
+/// Build everything that depends on which nodes are paired.
+template <int dim>
+void StateProblem<dim>::glue(const Field &x)
+{
+  forget();
+  shared = feti::SharedOperators(systems.size());
+  std::vector<RowCoefficients<dim>>                   rows;
+  std::vector<const std::vector<contact::Row<dim>> *> contact_rows;
+  for (const auto &at : problems)
+    rows.push_back({at->contact->rows(surface.gather(x)), held->frames(x)});
+  for (const auto &of_position : rows)
+    contact_rows.push_back(&of_position.contact);
+  const auto clusters = contact_clusters<dim>(surface.n_nodes(), contact_rows);
+  const auto table    = subdomain_table(mesh, tearing, model.body_names);
+  for (auto &system : systems)
+    system.boundary.clear();
+  for (unsigned int i = 0; i < problems.size(); ++i)
+    {
+      auto &at = *problems[i];
+      at.structure.reset(); // refers to the old gluing
+      at.gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i], clusters);
+      at.structure        = std::make_unique<const feti::DualStructure>(at.gluing->layout(), table,
+                                                                        model.feti, factor_cache);
+      const auto &contact = *at.contact;
+      at.pairs_of_rows    = {{}, narrow<unsigned int>(contact.pairs().size()), dim};
+      for (const unsigned int row : at.gluing->contact_of_row())
+        at.pairs_of_rows.of_row.push_back(row < contact.n_rows() ? contact.places()[row].pair
+                                                                 : at.pairs_of_rows.n);
+      for (unsigned int s = 0; s < systems.size(); ++s)
+        {
+          const auto                before = systems[s].boundary, mine = at.gluing->boundary(s);
+          std::vector<unsigned int> all;
+          std::set_union(before.begin(), before.end(), mine.begin(), mine.end(),
+                         std::back_inserter(all));
+          systems[s].boundary = all;
+        }
+    }
+  paired_at = x;
+}
+
+/// Destroy the matrices and loads of the present geometry, except factorizations and soft modes.
 template <int dim>
 void StateProblem<dim>::forget()
 {
   loaded_problems.clear();
   loaded_problems.resize(model.load_cases.size());
-  linearization.reset();
+  for (auto &at : problems)
+    at->linearization.reset();
+  shared.deflation.reset();
   present.positions.clear();
 }
 
 template <int dim>
-void StateProblem<dim>::pair(const Field &positions)
+void StateProblem<dim>::pair(const Field &x)
 {
   const RunContext::Timer timer(context, "setup");
-  contact->pair(surface.gather(positions), held->directions(surface, positions));
-  glue(positions);
+  const auto              on_surface = surface.gather(x);
+  const auto              directions = held->directions(surface, x);
+  for_each_position([&](PositionProblem<dim> &at) { at.contact->pair(on_surface, directions); });
+  glue(x);
 }
 
 template <int dim>
@@ -176,11 +238,10 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
   return result;
 }
 
-/// Assemble the matrices, rows and loads of a geometry.
+/// Assemble the matrices and loads of a geometry.
 template <int dim>
 void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool> &moved)
 {
-  present.rows         = rows(positions);
   const auto tractions = resultants.tractions(positions);
   loads.resize(model.load_cases.size());
   const auto assemble_subdomain = [&](const unsigned int s) {
@@ -207,59 +268,71 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
   });
 }
 
-/// Compute the linearization at @p positions, unless it is the present one.
+/// Assemble the matrices and loads at @p x, unless they are the present ones.
 template <int dim>
-void StateProblem<dim>::linearize(const Field &positions)
+void StateProblem<dim>::go_to(const Field &x)
 {
-  const auto moved     = moved_subdomains(positions);
+  const auto moved     = moved_subdomains(x);
   const int  any_moved = std::find(moved.begin(), moved.end(), true) != moved.end();
   if (dealii::Utilities::MPI::max(any_moved, context.communicator()) == 0)
     return;
-  feti::FactorsOfSubdomains factors(systems.size());
-  {
-    const RunContext::Timer timer(context, "assembly");
-    std::vector<double>     jacobians;
-    throw_collectively(context.communicator(),
-                       [&]() { jacobians = checked_jacobians(positions, moved); });
-    scaled_jacobians = jacobians;
-    jacobians.push_back(1.); // for a rank without cells
-    // Only one set of matrices and factors exists at a time. The factors of moved subdomains go
-    // back to the cache, which keeps their symbolic parts.
-    if (linearization)
-      factors = linearization->factors();
-    forget();
-    for (unsigned int s = 0; s < systems.size(); ++s)
-      if (moved[s])
-        factors[s].reset();
-    present.least_scaled_jacobian =
-      dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
-                                  context.communicator());
-    assemble(positions, moved);
-  }
+  const RunContext::Timer timer(context, "assembly");
+  std::vector<double>     jacobians;
+  throw_collectively(context.communicator(), [&]() { jacobians = checked_jacobians(x, moved); });
+  scaled_jacobians = jacobians;
+  jacobians.push_back(1.); // for a rank without cells
+  forget();
+  // Only one set of matrices and factors exists at a time. The factors of moved subdomains go back
+  // to the cache, which keeps their symbolic parts.
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    if (moved[s])
+      shared.factors[s].reset();
+  present.least_scaled_jacobian =
+    dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
+                                context.communicator());
+  assemble(x, moved);
+  present.positions = x;
+}
+
+/// Compute the linearization of a position at the present geometry, unless it is known.
+template <int dim>
+void StateProblem<dim>::linearize(PositionProblem<dim> &at)
+{
+  if (at.linearization)
+    return;
+  at.rows = {at.contact->rows(surface.gather(present.positions)), held->frames(present.positions)};
   feti::ConstraintRows B(systems.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
-    gluing->fill_B(s, present.rows, B[s]);
-  linearization     = std::make_unique<const feti::Linearization>(*structure, systems, std::move(B),
-                                                                  std::move(factors), soft_modes);
-  soft_modes        = linearization->soft_modes();
-  present.positions = positions;
+    at.gluing->fill_B(s, at.rows, B[s]);
+  at.linearization =
+    std::make_unique<const feti::Linearization>(*at.structure, systems, std::move(B), shared);
+  shared = at.linearization->shared();
 }
 
 template <int dim>
-void StateProblem<dim>::set(const Field &positions, const unsigned int load_case)
+void StateProblem<dim>::set(const Field &x, const unsigned int load_case)
 {
+  // The soft modes and their directions refer to the rows of the first position, so its
+  // linearization is the first one of every geometry.
+  PositionProblem<dim> &first = *problems.front();
   // Find the soft modes at the positions of the pairing, and not at those at which states happen to
   // be requested, so that a run that was interrupted finds the same soft modes again.
-  if (!soft_modes && structure->seeks_soft_modes(systems))
-    linearize(paired_at);
-  linearize(positions);
+  if (!shared.soft_modes && first.structure->seeks_soft_modes(systems))
+    {
+      go_to(paired_at);
+      linearize(first);
+    }
+  go_to(x);
+  linearize(first);
+  PositionProblem<dim> &at = *problems[problem_of_case[load_case]];
+  linearize(at);
   if (loaded_problems[load_case])
     return;
   check_vanished_rows(load_case);
   loaded_problems[load_case] =
-    std::make_unique<const feti::LoadedProblem>(*linearization, loads[load_case],
-                                                gluing->right_hand_side(present.rows, load_case),
-                                                &pairs_of_rows);
+    std::make_unique<const feti::LoadedProblem>(*at.linearization, loads[load_case],
+                                                at.gluing->right_hand_side(at.rows, load_case),
+                                                &at.pairs_of_rows);
 }
 
 template <int dim>
@@ -274,23 +347,24 @@ const feti::LoadedProblem &StateProblem<dim>::loaded(const Field       &position
 }
 
 template <int dim>
-RowCoefficients<dim> StateProblem<dim>::rows(const Field &positions) const
+RowCoefficients<dim> StateProblem<dim>::rows(const Field &x, const unsigned int load_case) const
 {
-  return {contact->rows(surface.gather(positions)), held->frames(positions)};
+  return {of(load_case).contact->rows(surface.gather(x)), held->frames(x)};
 }
 
 template <int dim>
 void StateProblem<dim>::check_vanished_rows(unsigned int load_case) const
 {
-  double length = 0.;
+  const PositionProblem<dim> &at     = of(load_case);
+  double                      length = 0.;
   for (const auto &box : boxes)
     length = std::max(length, box.length);
-  for (const unsigned int i : gluing->vanished_rows())
-    if (gluing->gap(i, present.rows, load_case) < -1e-10 * length)
+  for (const unsigned int i : at.gluing->vanished_rows())
+    if (at.gluing->gap(i, at.rows, load_case) < -1e-10 * length)
       {
         std::ostringstream text;
         text << "no equilibrium: contact row " << i << " has an overlap of "
-             << -gluing->gap(i, present.rows, load_case)
+             << -at.gluing->gap(i, at.rows, load_case)
              << ", but supports hold its nodes in the contact direction";
         throw SolveError(text.str());
       }

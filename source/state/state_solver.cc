@@ -110,7 +110,7 @@ ContactState<dim> StateSolver<dim>::solve_present(const Field         &positions
   state.least_scaled_jacobian = geometry.least_scaled_jacobian;
   const RunContext::Timer timer(context(), "solve");
   solve_to_certificate(start, state);
-  recover_contact_results(*this, geometry.rows, state);
+  recover_contact_results(*this, problem->of(load_case).rows, state);
   return state;
 }
 
@@ -149,10 +149,24 @@ unsigned long StateSolver<dim>::linear_f_mults(const ContactState<dim> &state) c
 }
 
 template <int dim>
-RowCoefficients<dim> StateSolver<dim>::row_derivatives(const Field &positions,
-                                                       const Field &velocity) const
+std::vector<unsigned int> StateSolver<dim>::positions() const
 {
-  return {contact().row_derivatives(surface().gather(positions), surface().gather(velocity)),
+  std::vector<unsigned int> first;
+  for (unsigned int c = 0; c < model().load_cases.size(); ++c)
+    if (std::none_of(first.begin(), first.end(), [&](const unsigned int other) {
+          return &problem->of(other) == &problem->of(c);
+        }))
+      first.push_back(c);
+  return first;
+}
+
+template <int dim>
+RowCoefficients<dim> StateSolver<dim>::row_derivatives(const Field       &positions,
+                                                       const Field       &velocity,
+                                                       const unsigned int load_case) const
+{
+  return {contact(load_case).row_derivatives(surface().gather(positions),
+                                             surface().gather(velocity)),
           held().frame_derivatives(positions, velocity)};
 }
 

@@ -43,11 +43,13 @@ line(const std::string &what, double value, const std::string &unit, const std::
 /// Return the height of the facets that gaps and normals of pair @p p contain. Gaps and normals of
 /// nodes that meet have no facets between the nodes.
 template <int dim>
-double seen_facets(const StateSolver<dim> &solver, const unsigned int p)
+double seen_facets(const StateSolver<dim>      &solver,
+                   const contact::Contact<dim> &contact,
+                   const unsigned int           p)
 {
-  const contact::Pair &pair = solver.contact().pairs()[p];
-  if (pair.obstacle || (pair.parameters.method == contact::Method::nodal &&
-                        solver.contact().matchings()[p].complete()))
+  const contact::Pair &pair = contact.pairs()[p];
+  if (pair.obstacle ||
+      (pair.parameters.method == contact::Method::nodal && contact.matchings()[p].complete()))
     return 0.;
   double height = 0.;
   for (const auto *side : {&pair.slave, &pair.master})
@@ -62,16 +64,17 @@ void assess_facets(const StateSolver<dim>               &solver,
                    const ContactState<dim>              &state,
                    ValidityChecks                       &result)
 {
-  std::vector<double> closed(solver.contact().pairs().size(), 0.);
+  const auto         &contact = solver.contact(state.load_case);
+  std::vector<double> closed(contact.pairs().size(), 0.);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
     if (state.contact[i].strong)
       {
-        double &largest = closed[solver.contact().places()[i].pair];
+        double &largest = closed[contact.places()[i].pair];
         largest         = std::max(largest, std::abs(contact_rows[i].gap));
       }
   for (unsigned int p = 0; p < closed.size(); ++p)
     {
-      const double height = seen_facets(solver, p);
+      const double height = seen_facets(solver, contact, p);
       if (closed[p] > 0. && height * result.closed_gap >= result.facet_height * closed[p])
         {
           result.facet_height = height;
@@ -110,10 +113,10 @@ ValidityChecks check_validity(const StateSolver<dim>               &solver,
   result.displacement /= farthest;
 
   const auto &surface = solver.surface();
+  const auto &contact = solver.contact(state.load_case);
   const auto  x       = surface.gather(state.positions);
-  const auto  slips =
-    solver.contact().tangential_slips(x, contact_rows, surface.gather(state.displacement));
-  const auto drifts = solver.contact().pairing_drifts(x, contact_rows);
+  const auto  slips = contact.tangential_slips(x, contact_rows, surface.gather(state.displacement));
+  const auto  drifts = contact.pairing_drifts(x, contact_rows);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
     {
       // Open contacts count as well, because they would close at the wrong point.
@@ -181,24 +184,27 @@ std::string of_a_face(const contact::PairedGaps &gaps)
 } // namespace
 
 void check_overlaps(const std::vector<contact::Pair>       &pairs,
-                    const std::vector<contact::PairedGaps> &gaps)
+                    const std::vector<contact::PairedGaps> &gaps,
+                    const std::string                      &place)
 {
   for (unsigned int p = 0; p < pairs.size(); ++p)
     // Gaps are replicated like all contact data, so all ranks throw, or none.
     if (gaps[p].overlap > absurd_overlap && !pairs[p].parameters.interference)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
-                      line("the sides overlap initially by", -gaps[p].least, of_a_face(gaps[p]),
+                      line("the sides overlap initially" + place + " by", -gaps[p].least,
+                           of_a_face(gaps[p]),
                            ": if the overlap is intended, set 'Interference' of the pair"));
 }
 
 std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>       &pairs,
-                                          const std::vector<contact::PairedGaps> &gaps)
+                                          const std::vector<contact::PairedGaps> &gaps,
+                                          const std::string                      &place)
 {
   std::vector<std::string> lines;
   for (unsigned int p = 0; p < pairs.size(); ++p)
     if (gaps[p].overlap > large_overlap && !pairs[p].parameters.interference)
-      lines.push_back(line("'" + pairs[p].name() + "' overlaps initially by", -gaps[p].least,
-                           of_a_face(gaps[p]),
+      lines.push_back(line("'" + pairs[p].name() + "' overlaps initially" + place + " by",
+                           -gaps[p].least, of_a_face(gaps[p]),
                            ": if the overlap is intended, set 'Interference' of the pair"));
   return lines;
 }

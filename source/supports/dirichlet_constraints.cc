@@ -342,8 +342,9 @@ std::vector<typename DirichletConstraints<dim>::Force>
 DirichletConstraints<dim>::forces(const Field                            &positions,
                                   const std::vector<std::vector<double>> &reactions) const
 {
-  const auto         x = surface.gather(positions);
-  const auto         n = normals(x);
+  const auto         x      = surface.gather(positions);
+  const auto         n      = normals(x);
+  const auto         bodies = surface.bodies_of_points();
   std::vector<Force> result;
   for (unsigned int i = 0; i < nodes.size(); ++i)
     {
@@ -351,8 +352,8 @@ DirichletConstraints<dim>::forces(const Field                            &positi
       const auto multipliers = Orthonormalised<dim>(frame).given_multipliers(reactions[i]);
       for (unsigned int j = 0; j < multipliers.size(); ++j)
         // From K u + B'lambda = f, a multiplier acts against its direction.
-        result.push_back({nodes[i].holds[j].face, x[nodes[i].surface_node],
-                          -multipliers[j] * frame.directions[j]});
+        result.push_back({nodes[i].holds[j].face, bodies[nodes[i].surface_node],
+                          x[nodes[i].surface_node], -multipliers[j] * frame.directions[j]});
     }
   return result;
 }

@@ -20,10 +20,10 @@ std::vector<unsigned int> glue(const state::StateSolver<dim> &solver)
   const auto               &surface = solver.surface();
   std::vector<unsigned int> target(mesh.n_local_nodes());
   std::iota(target.begin(), target.end(), 0);
-  const auto rows = solver.contact().rows(surface.gather(mesh.reference_positions()));
+  const auto rows = solver.contact(0).rows(surface.gather(mesh.reference_positions()));
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      const unsigned int slave = solver.contact().places()[i].slave;
+      const unsigned int slave = solver.contact(0).places()[i].slave;
       const auto        &c     = rows[i].coefficients;
       if (c.size() != 2)
         throw InputError("slave and master nodes do not match");

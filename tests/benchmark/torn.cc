@@ -29,7 +29,7 @@ Torn::Torn(const state::StateSolver<3> &solver,
   , dual(dual)
   , context(context)
   , cache(solver.model().feti.factorization, context)
-  , structure(solver.gluing().layout(), subdomain_table(solver), solver.model().feti, cache)
+  , structure(solver.gluing(0).layout(), subdomain_table(solver), solver.model().feti, cache)
   , soft_modes(std::make_shared<const feti::DeflationStructure>(structure.coarse,
                                                                 unsigned(dual.loads().size()),
                                                                 std::vector<feti::RowForces>(),
@@ -47,7 +47,7 @@ void Torn::linearize(feti::FactorsOfSubdomains factors)
   linearization.reset();
   const auto &now = dual.linearization();
   linearization   = std::make_unique<feti::Linearization>(structure, now.subdomains(), now.B(),
-                                                          std::move(factors), soft_modes);
+                                                          {std::move(factors), soft_modes, {}});
   problem = std::make_unique<feti::LoadedProblem>(*linearization, dual.loads(), dual.g(), &pairs);
 }
 
@@ -102,9 +102,8 @@ Stage Torn::factorization_of_interiors() const
   std::vector<std::unique_ptr<feti::LocalSchur>> schur;
   const auto                                     factorize = [&]() {
     schur.clear();
-    for (unsigned int s = 0; s < now.B().size(); ++s)
-      schur.push_back(
-        std::make_unique<feti::LocalSchur>(now.subdomains()[s], now.B()[s], false, own, "K_ii"));
+    for (const auto &system : now.subdomains())
+      schur.push_back(std::make_unique<feti::LocalSchur>(system, false, own, "K_ii"));
   };
   factorize();
   return {"factorization of K_ii", 1, median_time(repeats, factorize)};

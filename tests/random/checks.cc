@@ -57,7 +57,7 @@ void order(const WholeBodies<dim>         &whole,
   const auto surface = solver.surface().gather(x);
   for (unsigned int i = 0; i < state.contact.size(); ++i)
     {
-      const auto &place = solver.contact().places()[i];
+      const auto &place = solver.contact(0).places()[i];
       const auto  row =
         whole.row_of_slave.find(WholeBodies<dim>::key(place.pair, surface[place.slave]));
       // rows that supports hold entirely have no force

@@ -63,7 +63,7 @@ WholeBodies<dim>::WholeBodies(scene::Scene scene)
     {
       // Ignore the equilibrium error: matrices and loads are assembled already.
     }
-  collect(state, *mesh, state.rows(x));
+  collect(state, *mesh, state.rows(x, 0));
 }
 
 template <int dim>
@@ -72,9 +72,9 @@ void WholeBodies<dim>::collect(const state::StateProblem<dim>    &state,
                                const state::RowCoefficients<dim> &rows)
 {
   const auto           &x          = mesh.reference_positions();
-  const auto           &of_contact = state.gluing->contact_of_row();
-  const auto           &scales     = state.gluing->contact_scales();
-  const auto            g          = state.gluing->right_hand_side(rows, 0);
+  const auto           &of_contact = state.of(0).gluing->contact_of_row();
+  const auto           &scales     = state.of(0).gluing->contact_scales();
+  const auto            g          = state.of(0).gluing->right_hand_side(rows, 0);
   std::vector<DenseRow> all(of_contact.size());
   if (state.systems.size() != mesh.n_bodies())
     throw std::runtime_error("a body is not in one piece");
@@ -90,7 +90,7 @@ void WholeBodies<dim>::collect(const state::StateProblem<dim>    &state,
           positions.push_back(x[node]);
         }
       std::vector<feti::BEntry> B;
-      state.gluing->fill_B(s, rows, B);
+      state.of(0).gluing->fill_B(s, rows, B);
       for (const auto &entry : B)
         all[entry.row].coefficients.emplace_back(problem.first.back() + entry.dof, entry.value);
       collect_body(state.systems[s], state.assemblers[s]->load(x, 0, state.resultants.tractions(x)),
@@ -106,7 +106,7 @@ void WholeBodies<dim>::collect(const state::StateProblem<dim>    &state,
         c.second *= scale;
       if (contact < scales.size())
         {
-          const auto &place                                   = state.contact->places()[contact];
+          const auto &place = state.of(0).contact->places()[contact];
           row_of_slave[key(place.pair, surface[place.slave])] = problem.contact.size();
         }
       (contact < scales.size() ? problem.contact : problem.held).push_back(all[i]);

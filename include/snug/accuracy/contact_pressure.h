@@ -13,6 +13,7 @@ namespace snug::accuracy {
 /// interpolated values, all other nodes take 0.
 template <int dim>
 std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
+                                 unsigned int                   load_case,
                                  unsigned int                   pair,
                                  const std::vector<double>     &of_rows);
 
@@ -28,11 +29,11 @@ class ContactPressure
 public:
   using Face = typename mesh::BodyMesh<dim>::Face;
 
-  /// @p of_rows are in the order of the contact rows. @p positions are those of the local nodes.
-  /// The solver must outlive this object. Collective.
-  ContactPressure(const state::StateSolver<dim> &solver,
-                  const mesh::Field<dim>        &positions,
-                  const std::vector<double>     &of_rows);
+  /// @p of_rows are in the order of the contact rows. The solver must outlive this object.
+  /// Collective.
+  ContactPressure(const state::StateSolver<dim>  &solver,
+                  const state::ContactState<dim> &state,
+                  const std::vector<double>      &of_rows);
   ~ContactPressure();
 
   /// Return whether a face lies on a side of a pair.
@@ -43,8 +44,8 @@ public:
   double
   value(const Face &face, const std::vector<double> &shape, const dealii::Tensor<1, dim> &x) const;
 
-  /// Return the value of a pair at the point of its slave side closest to @p x; 0 beyond the end
-  /// of the slave side.
+  /// Return the value of a pair at the point of its slave side closest to @p x in space; 0 beyond
+  /// the end of the slave side.
   double on_slave_side(unsigned int pair, const dealii::Tensor<1, dim> &x) const;
 
 private:
@@ -52,7 +53,8 @@ private:
   using Boundary = std::pair<unsigned int, unsigned int>; ///< body and boundary
 
   const state::StateSolver<dim>          &solver;
-  typename mesh::Surface<dim>::Field      positions;
+  const unsigned int                      load_case;
+  typename mesh::Surface<dim>::Field      positions; ///< in space
   faces::FaceShape<dim>                   shape;
   std::vector<std::unique_ptr<SlaveSide>> pairs;
 

@@ -47,6 +47,7 @@ private:
   };
 
   const state::StateSolver<dim>     &solver;
+  unsigned int                       load_case;
   typename mesh::Surface<dim>::Field positions; ///< positions of the surface nodes
   std::vector<Point>                 points;
 

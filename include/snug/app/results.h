@@ -92,6 +92,13 @@ public:
   io::Summary summary; ///< its task, gradient and optimization are the task's
 
 private:
+  /// Numbers of rows in all positions of the bodies.
+  struct RowCounts
+  {
+    unsigned int contact = 0, all = 0;
+  };
+
+  RowCounts counted_rows() const;
   /// For the summary.
   void                   count_rows();
   void                   export_first_qp(const States &states);
@@ -111,7 +118,7 @@ private:
   std::vector<io::Summary::State> first_states; ///< per load case
   std::vector<MeshError>          last_errors;  ///< of add_last()
 
-  void print_pairs() const;
+  void print_pairs(unsigned int load_case, bool is_one_of_several) const;
 };
 } // namespace snug::app
 

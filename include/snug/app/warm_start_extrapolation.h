@@ -38,9 +38,9 @@ public:
   /// For a restart, bit for bit.
   std::string bytes() const;
 
-  /// Restore the history from the result of bytes(), with @p n_owned rows and @p n_cases load
-  /// cases. Returns false, with an empty history, if the sizes do not fit.
-  bool read(const std::string &bytes, unsigned int n_owned, unsigned int n_cases);
+  /// Restore the history from the result of bytes(), with @p n_owned rows per load case. Return
+  /// false, with an empty history, if the sizes do not fit.
+  bool read(const std::string &bytes, const std::vector<unsigned int> &n_owned);
 
 private:
   struct Entry

@@ -3,6 +3,7 @@
 
 #include <snug/contact/joined_pairs.h>
 #include <snug/contact/matching.h>
+#include <snug/contact/placed_surface.h>
 #include <snug/contact/point_gaps.h>
 #include <snug/contact/row_group.h>
 #include <snug/geometry/formula.h>
@@ -40,12 +41,14 @@ struct PairedGaps
 };
 
 /**
- * This class holds all contact rows of a scene. There is one group of rows per joined pair
- * (JoinedPair), in the order of pairs(). The gap formula of a pair, evaluated at the slave nodes,
- * is added to the gaps of its group. If several groups connect a slave node to the same surface,
- * the node has a row only in the group whose side faces that surface best. The constructor and
- * pair() pair nodes with faces, and the pairing is frozen between these calls. See RowGroup for the
- * meaning of the functions.
+ * This class holds all contact rows of a scene in one position of the bodies. Positions,
+ * velocities, displacements, held directions and coefficients of rows are in the frames of the
+ * bodies, see PlacedSurface; normals of rows are in space. There is one group of rows per joined
+ * pair (JoinedPair), in the order of pairs(). The gap formula of a pair, evaluated at the slave
+ * nodes, is added to the gaps of its group. If several groups connect a slave node to the same
+ * surface, the node has a row only in the group whose side faces that surface best. The constructor
+ * and pair() pair nodes with faces, and the pairing is frozen between these calls. See RowGroup for
+ * the meaning of the functions.
  */
 template <int dim>
 class Contact
@@ -54,13 +57,15 @@ public:
   using Field = typename mesh::Surface<dim>::Field;
 
   /// Pair at @p positions, where the supports hold the directions @p held. @p surface must outlive
-  /// this object.
-  /// @throws InputError naming a pair that is left without rows.
+  /// this object. @p position is where the bodies and obstacles are.
+  /// @throws InputError naming a pair that is left without rows. In a position other than that of
+  ///   the scene, a pair may have no rows if another pair has some.
   Contact(const mesh::Surface<dim>         &surface,
           const std::vector<Pair>          &pairs,
           unsigned int                      degree,
           const Field                      &positions,
-          const faces::HeldDirections<dim> &held);
+          const faces::HeldDirections<dim> &held,
+          const Position<dim>              &position = {});
 
   /// Pair again at @p positions, with the slave sides that the constructor has chosen.
   /// @throws InputError like the constructor.
@@ -95,8 +100,11 @@ public:
   /// Return d/dX sum_i factors_i areas_i for the factors of all rows.
   Field area_gradient(const Field &positions, const std::vector<double> &factors) const;
 
-  /// Return the gaps of pair @p p at points between its rows. The arguments must outlive the
-  /// result.
+  /// Return the surface in space, with the transformations to space.
+  const PlacedSurface<dim> &placed_surface() const { return placed; }
+
+  /// Return the gaps of pair @p p at points between its rows. @p positions and @p held are in
+  /// space, like the points and normals of the result, which the arguments must outlive.
   std::unique_ptr<PointGaps<dim>>
   point_gaps(unsigned int p, const Field &positions, const faces::HeldDirections<dim> &held) const;
 
@@ -128,7 +136,9 @@ private:
     double step; ///< step of the difference quotients of offset [length]
   };
 
-  const mesh::Surface<dim>        &surface;
+  const PlacedSurface<dim>         placed;
+  const mesh::Surface<dim>        &surface; ///< in space
+  const Position<dim>              position;
   const faces::FaceShape<dim>      shape;
   std::vector<JoinedPair>          joined;
   std::vector<Pair>                chosen; ///< the pairs of joined
@@ -140,13 +150,15 @@ private:
   Field                            paired_offsets; ///< one per row, at the pairing
   std::vector<PairedGaps>          gaps;           ///< one per pair, at the pairing
 
-  PairGeometry<dim> geometry(unsigned int                      p,
-                             const Field                      &positions,
-                             const faces::HeldDirections<dim> &held,
-                             std::vector<bool>                 taken = {}) const;
-  void              choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held);
-  void              make_groups(const Field &positions, const faces::HeldDirections<dim> &held);
-  void              number_rows(const Field &positions, const faces::HeldDirections<dim> &held);
+  PairGeometry<dim>      geometry(unsigned int                      p,
+                                  const Field                      &positions,
+                                  const faces::HeldDirections<dim> &held,
+                                  std::vector<bool>                 taken = {}) const;
+  dealii::Tensor<1, dim> slave_minus_master(const Row<dim> &row, const Field &in_space) const;
+
+  void choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held);
+  void make_groups(const Field &positions, const faces::HeldDirections<dim> &held);
+  void number_rows(const Field &positions, const faces::HeldDirections<dim> &held);
   std::vector<std::vector<bool>> contested_nodes(const Field &positions) const;
   void                           check_named_pairs() const;
   void  share_rows(const Field &positions, const faces::HeldDirections<dim> &held);

@@ -5,6 +5,7 @@
 #include <snug/contact/row_group.h>
 #include <snug/faces/face_shape.h>
 #include <snug/faces/held_directions.h>
+#include <snug/geometry/rigid_motion.h>
 
 #include <cmath>
 
@@ -52,7 +53,14 @@ struct PairGeometry
   const faces::HeldDirections<dim> &held;
   /// surface nodes with a row against this master in another pair; a second row would be nearly the
   /// same
-  std::vector<bool> taken;
+  std::vector<bool>          taken;
+  geometry::RigidMotion<dim> slave_motion;    ///< of the slave's body, to the position
+  geometry::RigidMotion<dim> obstacle_motion; ///< of the obstacle, to the position
+
+  /// Return the obstacle of the pair at its position.
+  std::unique_ptr<Obstacle<dim>> obstacle() const;
+  /// Return the displacement that the scene prescribes for the obstacle, at its position [length].
+  dealii::Tensor<1, dim> obstacle_displacement() const;
 
   /// Return the mean edge length of the slave faces [length].
   double slave_size() const { return mean_face_size(surface, sides.slave, positions); }

@@ -52,6 +52,7 @@ private:
   std::unique_ptr<Obstacle<dim>>          obstacle;
   dealii::Tensor<1, dim>                  shift; ///< displacement of the obstacle
   const mesh::Surface<dim>               &surface;
+  geometry::RigidMotion<dim>              slave_motion;
   std::vector<unsigned int>               master_faces, slave_faces;
   Normals normals, slave_normals; ///< slave_normals: only for mortar contact
   std::unique_ptr<Projector<dim>> projector;

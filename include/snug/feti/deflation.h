@@ -47,46 +47,39 @@ private:
 };
 
 /**
- * This class deflates the dual problem by directions C, which PCPG then need not find: E = C'FC is
- * factorized, and all other directions are made F-orthogonal to C. A column of C is B_D y for the
- * forces y of a soft mode, made self-equilibrated (G c = 0) by row forces of minimum norm. These
- * act on the rows of the neighbourhood that no subdomain outside the neighbourhood shares. The
+ * This class holds the directions C of a Deflation, and F C. A column of C is B_D y for the forces
+ * y of a soft mode, made self-equilibrated (G c = 0) by row forces of minimum norm. These act on
+ * the rows of the neighbourhood that no subdomain outside the neighbourhood shares. The
  * neighbourhood of a soft mode consists of its subdomain and the neighbours of its subdomain. C is
- * zero on contact rows, so that it lies in every face.
+ * zero on contact rows, so that it lies in every face, and all positions of the bodies share it.
  *
  * Each subdomain t stores, for every vector c whose neighbourhood contains t, its part of c and the
  * values of K^+ B_t'c on its boundary. F C is never assembled.
- *
- * Sources: Farhat, Chen, Risler, Roux, A simple and unified framework for accelerating the
- * convergence of iterative substructuring methods with Lagrange multipliers, Int. J. Numer. Meth.
- * Engng 42 (1998).
  */
-class Deflation
+class DeflationVectors
 {
 public:
   /// Compute C, F C and E. @p structure must outlive this object. The other arguments are those of
   /// a Linearization. Collective.
-  Deflation(const DeflationStructure           &structure,
-            const std::vector<SubdomainSystem> &systems,
-            const ConstraintRows               &B,
-            const FactorsOfSubdomains          &factors);
+  DeflationVectors(const DeflationStructure           &structure,
+                   const std::vector<SubdomainSystem> &systems,
+                   const ConstraintRows               &B,
+                   const FactorsOfSubdomains          &factors);
 
-  /// Set x <- x - C E^-1 (F C)'x. @return the square of the F-norm of the removed part, for each
-  /// column. Collective.
-  std::vector<double> orthogonalize(qp::MultiVector &x) const;
-
-  /// Minimize over the span of C: lambda += C E^-1 C'r, r -= F C E^-1 C'r. Collective.
-  void coarse_correction(qp::MultiVector &lambda, qp::MultiVector &residual) const;
-
-private:
   /// The data that a subdomain t stores of the vectors whose neighbourhood contains t.
   struct Part
   {
-    qp::MultiVector     C; ///< values of C on the rows of the part
-    std::vector<BEntry> B; ///< entries of B, numbered on the boundary
-    qp::MultiVector     X; ///< boundary values of K^+ B'C
+    qp::MultiVector C; ///< values of C on the rows of the part
+    qp::MultiVector X; ///< boundary values of K^+ B'C
   };
 
+  const DeflationStructure &structure;
+  std::vector<Part>         parts; ///< of the subdomains of this rank
+
+  /// Return E^-1 b.
+  qp::MultiVector solve(const qp::MultiVector &b) const;
+
+private:
   /// The value of a vector on a row, as a message to one of the row's subdomains.
   struct Value
   {
@@ -110,14 +103,43 @@ private:
                         const std::vector<BEntry> &B,
                         const std::vector<Value>  &values);
   void            factorize(const std::vector<qp::MultiVector> &products);
-  qp::MultiVector multiply(const qp::MultiVector &y) const;
-  qp::MultiVector solve(const qp::MultiVector &b) const;
 
-  const DeflationStructure           &structure;
-  const RowLayout                    &layout;
-  std::vector<Part>                   parts;
   std::vector<double>                 scale; ///< scales the diagonal of E to 1
   std::shared_ptr<const SparseFactor> E;
+};
+
+/**
+ * This class deflates the dual problem by the directions C, which PCPG then need not find: E = C'FC
+ * is factorized, and all other directions are made F-orthogonal to C.
+ *
+ * Sources: Farhat, Chen, Risler, Roux, A simple and unified framework for accelerating the
+ * convergence of iterative substructuring methods with Lagrange multipliers, Int. J. Numer. Meth.
+ * Engng 42 (1998).
+ */
+class Deflation
+{
+public:
+  /// Take the directions for a linearization with @p B, whose layout has the equality rows of the
+  /// layout of @p vectors. @p layout must outlive this object.
+  Deflation(const RowLayout                        &layout,
+            std::shared_ptr<const DeflationVectors> vectors,
+            const ConstraintRows                   &B,
+            const FactorsOfSubdomains              &factors);
+
+  /// Set x <- x - C E^-1 (F C)'x. @return the square of the F-norm of the removed part, for each
+  /// column. Collective.
+  std::vector<double> orthogonalize(qp::MultiVector &x) const;
+
+  /// Minimize over the span of C: lambda += C E^-1 C'r, r -= F C E^-1 C'r. Collective.
+  void coarse_correction(qp::MultiVector &lambda, qp::MultiVector &residual) const;
+
+private:
+  qp::MultiVector multiply(const qp::MultiVector &y) const;
+
+  const RowLayout                        &layout;
+  std::shared_ptr<const DeflationVectors> vectors;
+  const DeflationStructure               &structure;
+  ConstraintRows                          rows; ///< entries of B, numbered on the boundary
 };
 } // namespace snug::feti
 

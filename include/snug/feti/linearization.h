@@ -7,6 +7,18 @@
 #include <memory>
 
 namespace snug::feti {
+/// Operators that depend on K and the equality rows alone. The linearizations of several positions
+/// of the bodies at one geometry share them, and those of later geometries share a part. Null: to
+/// be computed.
+struct SharedOperators
+{
+  explicit SharedOperators(unsigned int n_subdomains = 0) : factors(n_subdomains) {}
+
+  FactorsOfSubdomains                       factors;    ///< of the subdomains of this rank
+  std::shared_ptr<const DeflationStructure> soft_modes; ///< of the pairing
+  std::shared_ptr<const DeflationVectors>   deflation;  ///< of the geometry
+};
+
 /**
  * This class holds the operators of Total FETI at one geometry, for bodies torn into floating
  * subdomains,
@@ -23,16 +35,14 @@ public:
    * Factorize the subdomains, compute G, G G' and B D^-1 B', and deflate by the soft modes. All
    * references must outlive this object, and the systems must not change. Collective.
    * @param[in] B of the subdomains of this rank.
-   * @param[in] factors of the subdomains of this rank; null: to be factorized.
-   * @param[in] soft_modes of the pairing; null: they are found with these matrices if
-   *   DualStructure::seeks_soft_modes().
+   * @param[in] shared operators of a linearization with equal K and equality rows. Soft modes are
+   *   found with these matrices if they are null and DualStructure::seeks_soft_modes().
    * @throws SolveError where a matrix is not positive definite.
    */
-  Linearization(const DualStructure                      &structure,
-                const std::vector<SubdomainSystem>       &systems,
-                ConstraintRows                            B,
-                FactorsOfSubdomains                       factors,
-                std::shared_ptr<const DeflationStructure> soft_modes);
+  Linearization(const DualStructure                &structure,
+                const std::vector<SubdomainSystem> &systems,
+                ConstraintRows                      B,
+                SharedOperators                     shared);
 
   RunContext                         &context() const { return structure.cache.context; }
   const RowLayout                    &layout() const { return structure.layout; }
@@ -42,11 +52,9 @@ public:
   const std::vector<SubdomainSystem> &subdomains() const { return systems; }
   const ConstraintRows               &B() const { return rows; }
 
-  /// Return the factorizations, which a later linearization may share.
-  const FactorsOfSubdomains &factors() const { return subdomain_factors; }
-
-  /// Return the soft modes of the pairing, which a later linearization takes. Never null.
-  const std::shared_ptr<const DeflationStructure> &soft_modes() const { return modes; }
+  /// Return the operators that other linearizations may share. The soft modes are never null, and
+  /// the deflation is null without soft modes.
+  const SharedOperators &shared() const { return operators; }
 
   const CoarseSpace &coarse() const { return *coarse_space; }
 
@@ -97,14 +105,13 @@ private:
   const DualStructure                &structure;
   const std::vector<SubdomainSystem> &systems;
   const ConstraintRows                rows;
-  FactorsOfSubdomains                 subdomain_factors;
+  SharedOperators                     operators;
   std::unique_ptr<const CoarseSpace>  coarse_space;
   std::unique_ptr<const RowGram>      gram;
   std::vector<double>                 F_diagonal;
   /// B D^{-1} of each subdomain, numbered by the boundary positions of its Schur complement
-  ConstraintRows                            weighted_B;
-  std::shared_ptr<const DeflationStructure> modes;
-  std::unique_ptr<const Deflation>          deflation; ///< null without soft modes
+  ConstraintRows                   weighted_B;
+  std::unique_ptr<const Deflation> deflation; ///< null without soft modes
 };
 } // namespace snug::feti
 

@@ -10,19 +10,18 @@ namespace snug::feti {
 /**
  * The primal operator of one subdomain in the preconditioner,
  * S = K_bb - K_bi K_ii^{-1} K_ib ("Dirichlet") or K_bb ("lumped").
- * b are the unknowns with an entry in B. The fixing unknowns are added to b if holding the unknowns
- * with entries in B leaves the subdomain a rigid motion.
+ * b is the boundary of the system. The fixing unknowns are added to b if holding the boundary
+ * leaves the subdomain a rigid motion.
  */
 class LocalSchur
 {
 public:
-  /// Extract the blocks of K and factorize K_ii for the unknowns b of @p B. Error messages call the
-  /// matrix @p what. The caches keep patterns and factors of former matrices.
-  LocalSchur(const SubdomainSystem     &system,
-             const std::vector<BEntry> &B,
-             bool                       lumped,
-             const FactorCache         &cache,
-             const std::string         &what);
+  /// Extract the blocks of K and factorize K_ii. Error messages call the matrix @p what. The caches
+  /// keep patterns and factors of former matrices.
+  LocalSchur(const SubdomainSystem &system,
+             bool                   lumped,
+             const FactorCache     &cache,
+             const std::string     &what);
 
   /// Return the position in b of each unknown of the subdomain, or n_boundary() outside b.
   const std::vector<unsigned int> &boundary_position() const { return position_b; }

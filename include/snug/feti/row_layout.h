@@ -10,9 +10,10 @@
 namespace snug::feti {
 /**
  * This class describes the distribution of the rows of B over ranks. Each row is owned by one rank.
- * The local rows of a rank are those with an entry in one of its subdomains. Rows that share an
- * unknown (one copy of it in one subdomain) must have one owner, so that @f$B D^{-1} B^T@f$ is
- * block diagonal over ranks.
+ * The local rows of a rank are those with an entry in one of its subdomains: first the equality
+ * rows, then the contact rows, each in the order of the global rows. Layouts with equal equality
+ * rows thus number these rows equally. Rows that share an unknown (one copy of it in one subdomain)
+ * must have one owner, so that @f$B D^{-1} B^T@f$ is block diagonal over ranks.
  */
 class RowLayout
 {
@@ -74,6 +75,8 @@ public:
   const std::vector<Unknown> &entry_unknowns() const { return unknowns; }
 
 private:
+  void sort_local_rows(const std::vector<unsigned int> &first_row_of_rank);
+
   /// Gather the values of the entries, rank by rank. The @p n_per_entry values of an entry are one
   /// item of the MPI type @p of_entry.
   template <typename T>
@@ -83,8 +86,9 @@ private:
 
   MPI_Comm                  comm;
   qp::RowSet                is_bounded;
-  unsigned int              first_owned; ///< first owned row, as a global row
-  std::vector<unsigned int> local_rows;  ///< ascending global rows
+  unsigned int              first_owned;  ///< first owned row, as a global row
+  std::vector<unsigned int> local_rows;   ///< global rows: equality rows, then contact rows
+  unsigned int              n_equalities; ///< number of local equality rows
   petsc::StarForest         row_forest, entry_forest;
   std::vector<unsigned int> start;
   std::vector<unsigned int> order; ///< sorted order of the gathered entries

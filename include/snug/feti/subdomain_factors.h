@@ -10,21 +10,20 @@
 
 namespace snug::feti {
 /// This struct holds the factorizations of one subdomain. They depend on K and on the unknowns that
-/// have an entry in B, but not on the values of B.
+/// have an entry in B, but not on B itself.
 struct SubdomainFactors
 {
   /// Factorize the matrices. Error messages call them @p what. The context of @p cache must outlive
   /// this object.
-  SubdomainFactors(const SubdomainSystem     &system,
-                   const std::vector<BEntry> &B,
-                   const Preconditioner       preconditioner,
-                   const FactorCache         &cache,
-                   const std::string         &what)
+  SubdomainFactors(const SubdomainSystem &system,
+                   const Preconditioner   preconditioner,
+                   const FactorCache     &cache,
+                   const std::string     &what)
     : inverse(system, cache.inverses, cache.context, what)
   {
     if (preconditioner != Preconditioner::none)
-      schur = std::make_unique<LocalSchur>(system, B, preconditioner == Preconditioner::lumped,
-                                           cache, what);
+      schur =
+        std::make_unique<LocalSchur>(system, preconditioner == Preconditioner::lumped, cache, what);
   }
 
   GeneralizedInverse                inverse; ///< K^+

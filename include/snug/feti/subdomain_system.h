@@ -31,6 +31,9 @@ struct SubdomainSystem
   qp::MultiVector           R;
   qp::MultiVector           Z;
   std::vector<unsigned int> fixing_dofs; ///< unknowns of a few far-apart nodes
+  /// unknowns with an entry in B, ascending; where the bodies have several positions, in any of
+  /// them
+  std::vector<unsigned int> boundary;
 
   unsigned int n_dofs() const { return K.n_rows(); }
 };

@@ -4,6 +4,7 @@
 #include <deal.II/base/point.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace snug {
@@ -46,6 +47,10 @@ private:
   std::string                                  entry, text;
   std::unique_ptr<dealii::FunctionParser<dim>> parser;
 };
+
+/// Return the value of a formula without variables, or nothing if @p text is no such formula or its
+/// value is not finite.
+std::optional<double> constant_value(const std::string &text);
 
 /// Check that @p formula is a formula of the coordinates of the scene. @p formula is @p value or a
 /// part of @p value. @throws InputError

@@ -13,7 +13,8 @@
 namespace snug::io {
 /**
  * The series contact.pvd of contact faces. State number i is contact-000i.vtu (all faces of both
- * sides, undeformed) with a table of the contact rows beside it, contact-000i.csv. Rank 0 writes.
+ * sides, undeformed, in the position of the load case) with a table of the contact rows beside it,
+ * contact-000i.csv. Rank 0 writes.
  *
  * | field               | meaning                          | units           |
  * |---------------------|----------------------------------|-----------------|
@@ -48,6 +49,7 @@ public:
     const std::vector<contact::JoinedPair>          &pairs;
     const std::vector<contact::RowPlace>            &places;
     const std::vector<contact::DependentMultiplier> &dependent_multipliers;
+    const contact::PlacedSurface<dim>               &placed;
   };
 
   /// Files go to the directory @p directory, which must exist.

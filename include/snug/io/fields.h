@@ -1,6 +1,7 @@
 #ifndef snug_io_fields_h
 #define snug_io_fields_h
 
+#include <snug/contact/placed_surface.h>
 #include <snug/mesh/tearing.h>
 #include <snug/scene/output_parameters.h>
 #include <snug/state/assembler.h>
@@ -16,9 +17,9 @@ namespace snug::io {
  * joins one solution-000i.GROUP.vtu per group of ranks, with a piece per rank. OutputParameters
  * give the number of ranks per group.
  *
- * Points lie on the design, before deformation: "warp by vector displacement" shows the deformed
- * bodies, and warping by minus design_displacement shows the reference bodies. Cells share points
- * within each region of a body.
+ * Points lie on the design in the position of the load case, before deformation: "warp by vector
+ * displacement" shows the deformed bodies, and warping by minus design_displacement shows the
+ * reference bodies. Cells share points within each region of a body.
  *
  * | field               | components | units                |
  * |---------------------|------------|----------------------|
@@ -44,7 +45,8 @@ public:
   {
     const mesh::BodyMesh<dim>                &mesh;
     const mesh::Tearing                      &tearing;
-    const std::vector<state::BodyModel<dim>> &bodies; ///< materials and formulations
+    const std::vector<state::BodyModel<dim>> &bodies;   ///< materials and formulations
+    const contact::Position<dim>             &position; ///< of the bodies in the load case
   };
 
   /// Files go to the directory @p directory, which must exist.

@@ -1,6 +1,7 @@
 #ifndef snug_mesh_surface_h
 #define snug_mesh_surface_h
 
+#include <snug/geometry/rigid_motion.h>
 #include <snug/mesh/body_mesh.h>
 
 #include <algorithm>
@@ -31,6 +32,10 @@ public:
   Surface(const BodyMesh<dim>                                      &mesh,
           const std::vector<std::pair<unsigned int, unsigned int>> &boundaries);
 
+  /// Return this surface with the reference positions and the known surfaces of each body moved by
+  /// @p motions, one per body.
+  Surface moved(const std::vector<geometry::RigidMotion<dim>> &motions) const;
+
   MPI_Comm communicator() const { return mesh.communicator(); }
   /// Return the solid or the section of a solid that the mesh represents.
   const Idealization      &idealization() const { return mesh.idealization(); }
@@ -56,6 +61,8 @@ public:
 
   /// Return the values of a mesh field at the nodes or points of the surface. Collective.
   Field gather(const mesh::Field<dim> &field) const;
+  /// Return the body of each point.
+  std::vector<unsigned int> bodies_of_points() const;
   /// Add a surface field to a field of nodes or points, at the nodes and samples that this rank
   /// owns (hanging nodes included). A sum over ranks thus contains each value once.
   void add_owned(const Field &surface_field, mesh::Field<dim> &field) const;

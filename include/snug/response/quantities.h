@@ -11,12 +11,15 @@ namespace snug::response {
 /// name selects all pairs.
 /// @throws InputError if there is no such pair.
 template <int dim>
-std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver, const std::string &name);
+std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver,
+                               const std::string             &name,
+                               unsigned int                   load_case);
 
 /// Return the share of each contact row in the pair called @p name, with either side first.
 /// An empty name selects all pairs. @throws InputError if there is no such pair.
 template <int dim>
-std::vector<double> row_shares(const state::StateSolver<dim> &solver, const std::string &name);
+std::vector<double>
+row_shares(const state::StateSolver<dim> &solver, const std::string &name, unsigned int load_case);
 
 /// @name Quantities of response_table()
 /// @{

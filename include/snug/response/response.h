@@ -99,6 +99,7 @@ public:
   /// Return J of pressures given at places other than the slave nodes, one set of rows per
   /// pair. Return nothing if J is not a function of the pressures.
   virtual std::optional<double> measured(const state::StateSolver<dim> & /*solver*/,
+                                         unsigned int /*load_case*/,
                                          const std::vector<PressureRows> & /*of_pairs*/) const
   {
     return {};
@@ -107,6 +108,7 @@ public:
   /// Return J and its derivatives as a function of the forces and areas of all contact rows.
   /// Return nothing if J depends on further quantities. Not collective.
   virtual std::optional<Measured> of_contact(const state::StateSolver<dim> & /*solver*/,
+                                             unsigned int /*load_case*/,
                                              const PressureRows & /*rows*/) const
   {
     return {};

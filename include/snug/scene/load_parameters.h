@@ -55,10 +55,18 @@ struct LoadCaseParameters
   double              weight = 1.; ///< weight in the objective
   LoadParameters      loads;       ///< loads besides those of the bodies
   std::vector<double> gravity;     ///< [length / time^2], in addition to the scene's gravity
+  /// cases that the section stands for; with_cases() has replaced sections with more than one
+  unsigned int cases = 1;
+  /// motions of bodies and obstacles by name, see geometry::rigid_motion()
+  std::vector<std::pair<std::string, std::string>> positions;
+  /// whether loads keep their directions in space, instead of turning with the bodies
+  bool loads_in_space = false;
 
   std::string section() const { return "Load case " + name; }
 
   void declare(Entries &entries);
+  /// Check that each position moves one of the bodies or obstacles called @p names.
+  void check_positions(const SectionCheck &section, const std::vector<std::string> &names) const;
 };
 
 /// Declare the entry Gravity of a scene or a load case.

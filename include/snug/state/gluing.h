@@ -19,14 +19,17 @@ class Gluing
 public:
   /**
    * Build the rows for the copies of all nodes, for @p held and for the contact rows that
-   * @p reference contains at the reference geometry (equal on all ranks). @p held must outlive this
-   * object. Collective.
+   * @p reference contains at the reference geometry (equal on all ranks). The rank that owns a row
+   * follows from the @p clusters of all positions of the bodies (contact_clusters()), so that the
+   * rows of gluing and supports are the same in all positions. @p held must outlive this object.
+   * Collective.
    */
   Gluing(const mesh::BodyMesh<dim>                 &mesh,
          const mesh::Tearing                       &tearing,
          const mesh::Surface<dim>                  &surface,
          const supports::DirichletConstraints<dim> &held,
-         const RowCoefficients<dim>                &reference);
+         const RowCoefficients<dim>                &reference,
+         const std::vector<unsigned int>           &clusters);
 
   const feti::RowLayout &layout() const { return *rows.layout; }
 
@@ -36,6 +39,9 @@ public:
 
   /// Return nr of each contact row; the physical force is lambda / nr.
   const std::vector<double> &contact_scales() const { return rows.scales; }
+
+  /// Return the unknowns of subdomain @p s of this rank that have an entry in B, ascending.
+  std::vector<unsigned int> boundary(unsigned int s) const;
 
   /// Compute B of subdomain @p s of this rank.
   void fill_B(unsigned int s, const RowCoefficients<dim> &rows, std::vector<feti::BEntry> &B) const;

@@ -21,6 +21,15 @@ struct RowCoefficients
 };
 
 /**
+ * Return the first surface node of the cluster of each of @p n_nodes nodes. Nodes that a contact
+ * row of one of the @p positions couples are in one cluster.
+ */
+template <int dim>
+std::vector<unsigned int>
+contact_clusters(unsigned int                                               n_nodes,
+                 const std::vector<const std::vector<contact::Row<dim>> *> &positions);
+
+/**
  * This class is the topology of Gluing: the owner of each row of B, and the copies of nodes that
  * the row joins. The copies of each node meet on one rank, which numbers the rows and sends their
  * entries to the subdomains.
@@ -58,7 +67,8 @@ public:
              const mesh::Tearing                       &tearing,
              const mesh::Surface<dim>                  &surface,
              const supports::DirichletConstraints<dim> &held,
-             const RowCoefficients<dim>                &reference);
+             const RowCoefficients<dim>                &reference,
+             const std::vector<unsigned int>           &clusters);
 
   /// Return the part of a coefficient at a surface node that remains after projecting it off the
   /// directions held there.
@@ -83,19 +93,18 @@ private:
   /// An entry that the owner of a row sends to a subdomain.
   struct Message;
 
-  void                      collect_surface(const mesh::Tearing &tearing);
-  void                      scale_rows(const RowCoefficients<dim> &reference);
-  std::vector<unsigned int> assign_row_owners(const std::vector<contact::Row<dim>> &rows) const;
-  Copies                    collect_copies(const mesh::Tearing             &tearing,
-                                           const std::vector<unsigned int> &rank_of_contact) const;
-  void                      number_node_rows(const Copies               &nodes,
-                                             const RowCoefficients<dim> &reference,
-                                             std::vector<Message>       &messages);
-  void                      number_contact_rows(const Copies                         &nodes,
-                                                const std::vector<contact::Row<dim>> &reference_rows,
-                                                const std::vector<unsigned int>      &rank_of_contact,
-                                                std::vector<Message>                 &messages);
-  void send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
+  void   collect_surface(const mesh::Tearing &tearing);
+  void   scale_rows(const RowCoefficients<dim> &reference);
+  Copies collect_copies(const mesh::Tearing             &tearing,
+                        const std::vector<unsigned int> &rank_of_contact) const;
+  void   number_node_rows(const Copies               &nodes,
+                          const RowCoefficients<dim> &reference,
+                          std::vector<Message>       &messages);
+  void   number_contact_rows(const Copies                         &nodes,
+                             const std::vector<contact::Row<dim>> &reference_rows,
+                             const std::vector<unsigned int>      &rank_of_contact,
+                             std::vector<Message>                 &messages);
+  void   send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
   const mesh::BodyMesh<dim>                 &mesh;
   const mesh::Surface<dim>                  &surface;

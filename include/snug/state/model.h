@@ -2,6 +2,7 @@
 #define snug_state_model_h
 
 #include <snug/contact/pair.h>
+#include <snug/contact/placed_surface.h>
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/linear_traction.h>
 #include <snug/feti/feti_parameters.h>
@@ -54,8 +55,9 @@ struct BodyLoads
 template <int dim>
 struct LoadCase
 {
-  std::string                 name;   ///< may be empty for a single load case
-  std::vector<BodyLoads<dim>> bodies; ///< one per body
+  std::string                 name;     ///< may be empty for a single load case
+  std::vector<BodyLoads<dim>> bodies;   ///< one per body, in the frames of the bodies
+  contact::Position<dim>      position; ///< of the bodies and obstacles
 };
 
 /// Definition of a state problem, in indices and not in names.
@@ -72,6 +74,17 @@ struct Model
   feti::FetiParameters feti;
   qp::SolverParameters solver;
 };
+
+/// Return " in load case 'NAME'", for messages about the position of a load case. The text is empty
+/// if all load cases have one position.
+template <int dim>
+std::string place_of(const Model<dim> &model, const unsigned int load_case)
+{
+  for (const auto &other : model.load_cases)
+    if (!(other.position == model.load_cases[load_case].position))
+      return " in load case '" + model.load_cases[load_case].name + "'";
+  return "";
+}
 } // namespace snug::state
 
 #endif

@@ -1,13 +1,9 @@
 #ifndef snug_state_state_problem_h
 #define snug_state_state_problem_h
 
-#include <snug/contact/contact.h>
-#include <snug/feti/loaded_problem.h>
 #include <snug/state/assembler.h>
 #include <snug/state/body_boxes.h>
-#include <snug/state/gluing.h>
-
-#include <memory>
+#include <snug/state/position_problem.h>
 
 namespace snug::state {
 /// A geometry with the data from which its matrices were made.
@@ -15,13 +11,12 @@ template <int dim>
 struct Geometry
 {
   typename mesh::BodyMesh<dim>::Field positions;
-  RowCoefficients<dim>                rows;                       ///< data of the rows of B
   double                              least_scaled_jacobian = 1.; ///< minimum over all cells
 };
 
 /**
  * This class is the state problem of Total FETI. Patterns of the matrices are made once, pairing
- * and gluing by the constructor and again by pair(). set() computes the
+ * and gluing of all positions by the constructor and again by pair(). set() computes the
  * matrices and loads of a geometry, which this class keeps until the next geometry. The public
  * members are the parts of the problem, for reading only.
  */
@@ -57,8 +52,14 @@ public:
   /// subdomains are at other positions, which is an error of the caller.
   const feti::LoadedProblem &loaded(const Field &positions, unsigned int load_case) const;
 
-  /// Return the data of the rows of B at @p positions. Collective.
-  RowCoefficients<dim> rows(const Field &positions) const;
+  /// Return the part of the problem that belongs to the position of a load case.
+  const PositionProblem<dim> &of(unsigned int load_case) const
+  {
+    return *problems[problem_of_case[load_case]];
+  }
+
+  /// Return the data of the rows of B of a load case at @p x. Collective.
+  RowCoefficients<dim> rows(const Field &x, unsigned int load_case) const;
 
   const mesh::BodyMesh<dim>                           &mesh;
   const mesh::Tearing                                 &tearing;
@@ -68,33 +69,34 @@ public:
   elasticity::FaceLoad<dim>                            face_load;
   ResultantLoads<dim>                                  resultants;
   mesh::Surface<dim>                                   surface;
-  std::unique_ptr<contact::Contact<dim>>               contact;
   std::unique_ptr<supports::DirichletConstraints<dim>> held;
-  std::unique_ptr<Gluing<dim>>                         gluing;
   std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
   std::vector<feti::SubdomainSystem>                   systems;
   feti::FactorCache                                    factor_cache;
-  std::unique_ptr<const feti::DualStructure>           structure; ///< of the pairing
 
 private:
-  void                glue(const Field &positions);
-  void                forget();
+  void make_positions();
+  void for_each_position(const std::function<void(PositionProblem<dim> &)> &pair) const;
+  void glue(const Field &x);
+  void forget();
   std::vector<bool>   moved_subdomains(const Field &positions) const;
   std::vector<double> checked_jacobians(const Field &positions, const std::vector<bool> &moved);
   void                assemble(const Field &positions, const std::vector<bool> &moved);
-  void                linearize(const Field &positions);
+  void                go_to(const Field &x);
+  void                linearize(PositionProblem<dim> &at);
   void                check_vanished_rows(unsigned int load_case) const;
 
   std::vector<BodyBox<dim>> boxes;
   std::vector<double>       scaled_jacobians; ///< minimum per subdomain
-  Field                     paired_at;        ///< positions of the last pairing
-  feti::ContactPairs        pairs_of_rows;
-  /// soft modes of the pairing; null: not sought yet
-  std::shared_ptr<const feti::DeflationStructure> soft_modes;
-  Geometry<dim>                                   present; ///< empty positions: none
-  std::vector<feti::PrimalVectors>                loads;   ///< f of each load case
-  std::unique_ptr<const feti::Linearization>      linearization;
-  /// by load case; null: not set at this geometry
+  Field                     paired_at;        ///< node positions of the last pairing
+  std::vector<std::unique_ptr<PositionProblem<dim>>> problems; ///< one per position
+  std::vector<unsigned int>                          problem_of_case;
+  /// operators that all positions share; the deflation is that of the present geometry
+  feti::SharedOperators            shared;
+  Geometry<dim>                    present; ///< empty positions: none
+  std::vector<feti::PrimalVectors> loads;   ///< f of each load case
+  /// by load case; null: not set at this geometry. They refer to the linearizations of the
+  /// problems.
   std::vector<std::unique_ptr<const feti::LoadedProblem>> loaded_problems;
 };
 } // namespace snug::state

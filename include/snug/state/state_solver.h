@@ -58,12 +58,33 @@ public:
   const mesh::Tearing                       &tearing() const { return problem->tearing; }
   const Model<dim>                          &model() const { return problem->model; }
   const mesh::Surface<dim>                  &surface() const { return problem->surface; }
-  const contact::Contact<dim>               &contact() const { return *problem->contact; }
   const supports::DirichletConstraints<dim> &held() const { return *problem->held; }
+
+  /// Return the first load case of each position of the bodies.
+  std::vector<unsigned int> positions() const;
+
+  /// @name Contact of a load case, in the position of its bodies
+  /// @{
+  const contact::Contact<dim> &contact(unsigned int load_case) const
+  {
+    return *problem->of(load_case).contact;
+  }
+  const Gluing<dim> &gluing(unsigned int load_case) const { return *problem->of(load_case).gluing; }
+  /// Return the motion of a body to the position of the load case.
+  geometry::RigidMotion<dim> motion(unsigned int load_case, unsigned int body) const
+  {
+    return model().load_cases[load_case].position.of_body(body);
+  }
   /// Return the data of the rows of B at @p positions. Collective.
-  RowCoefficients<dim> rows(const Field &positions) const { return problem->rows(positions); }
+  RowCoefficients<dim> rows(const Field &positions, unsigned int load_case) const
+  {
+    return problem->rows(positions, load_case);
+  }
   /// Return the exact derivative of the data of the rows of B along @p velocity. Collective.
-  RowCoefficients<dim>       row_derivatives(const Field &positions, const Field &velocity) const;
+  RowCoefficients<dim>
+  row_derivatives(const Field &positions, const Field &velocity, unsigned int load_case) const;
+  /// @}
+
   const ResultantLoads<dim> &resultants() const { return problem->resultants; }
   /// Return f of a load case at @p positions. Collective.
   feti::PrimalVectors              loads(const Field &positions, unsigned int load_case) const;
@@ -73,9 +94,8 @@ public:
   {
     return problem->assemblers;
   }
-  const Gluing<dim> &gluing() const { return *problem->gluing; }
   /// Return the number of rigid body modes of all subdomains.
-  unsigned int n_kernel() const { return problem->structure->coarse.table.n_kernel(); }
+  unsigned int n_kernel() const { return problem->of(0).structure->coarse.table.n_kernel(); }
   RunContext  &context() const { return problem->context; }
 
 private:

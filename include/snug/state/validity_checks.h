@@ -46,16 +46,18 @@ std::vector<std::string> warnings(const ValidityChecks &validity);
 /// Return the line about facets among the warnings; empty if the facets are below their limit.
 std::string facet_warning(const ValidityChecks &validity);
 
-/// Check the overlaps of the pairs.
+/// Check the overlaps of the pairs. Messages contain @p place, see place_of().
 /// @throws InputError if slave nodes of a pair overlap the master by more than absurd_overlap where
 /// they were paired and the overlap is not intended.
 void check_overlaps(const std::vector<contact::Pair>       &pairs,
-                    const std::vector<contact::PairedGaps> &gaps);
+                    const std::vector<contact::PairedGaps> &gaps,
+                    const std::string                      &place = "");
 
 /// Return one line for each pair whose slave nodes overlap the master by more than large_overlap
 /// where they were paired, if the overlap is not intended.
 std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>       &pairs,
-                                          const std::vector<contact::PairedGaps> &gaps);
+                                          const std::vector<contact::PairedGaps> &gaps,
+                                          const std::string                      &place = "");
 
 /// Return one line for each nodal pair of faces whose meshes do not match, and for each mortar pair
 /// whose slave faces are finer by more than the factor finer_slave.

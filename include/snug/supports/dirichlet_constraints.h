@@ -72,6 +72,7 @@ public:
   struct Force
   {
     std::string            face; ///< name of the face of the support
+    unsigned int           body;
     dealii::Tensor<1, dim> position, value;
   };
 

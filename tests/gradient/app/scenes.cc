@@ -120,7 +120,7 @@ public:
   void check(const contact::Method contact_method)
   {
     ASSERT_GT(design.size(), 0u);
-    for (const auto &pair : problem.solver->contact().pairs())
+    for (const auto &pair : problem.solver->contact(0).pairs())
       ASSERT_EQ(pair.parameters.method, contact_method);
     const auto states = problem.solve(design);
     problem.scale_objective(states);

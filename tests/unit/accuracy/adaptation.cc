@@ -152,10 +152,10 @@ TEST(Transfer, KeepsTheForce)
   const auto state = from.solve();
   const auto start =
     accuracy::transferred(from.solver, state, to.solver, to.mesh.reference_positions());
-  const auto forces = to.solver.gluing().gather_contact(start.lambda.column(0));
+  const auto forces = to.solver.gluing(0).gather_contact(start.lambda.column(0));
   double     sum    = 0.;
   for (unsigned int i = 0; i < forces.size(); ++i)
-    sum += forces[i] / to.solver.gluing().contact_scales()[i];
+    sum += forces[i] / to.solver.gluing(0).contact_scales()[i];
   // Linear between nodes: the same integral, but for the end of contact.
   EXPECT_NEAR(sum / state.contact_force.norm(), 1., 0.02);
 }
@@ -185,7 +185,7 @@ TEST(Trust, AsksForFacesAcrossEachPatch)
   EXPECT_EQ(faces.size(), state.active_contacts + 3u);
   for (const unsigned int face : faces)
     EXPECT_EQ(problem.solver.surface().faces()[face].body,
-              problem.solver.contact().pairs()[0].slave.body());
+              problem.solver.contact(0).pairs()[0].slave.body());
 }
 
 TEST(Trust, SeesTwoPatches)

@@ -222,7 +222,7 @@ end
 TEST(Warnings, OfDesignsThatLeaveTheirPairing)
 {
   SolvedScene<3> solved(two_blocks(true));
-  const auto    &contact = solved.solver.contact();
+  const auto    &contact = solved.solver.contact(0);
   const auto    &surface = solved.solver.surface();
   auto           x       = surface.gather(solved.positions);
   for (const auto &place : contact.places())
@@ -239,8 +239,8 @@ TEST(Warnings, OfDesignsThatLeaveTheirPairing)
 TEST(Warnings, OfOverlapUnlessItIsWanted)
 {
   const SolvedScene<3> solved(two_blocks(true), {"Contact/Gap=-0.1"});
-  const auto          &gaps  = solved.solver.contact().paired_gaps();
-  auto                 pairs = solved.solver.contact().pairs();
+  const auto          &gaps  = solved.solver.contact(0).paired_gaps();
+  auto                 pairs = solved.solver.contact(0).pairs();
   EXPECT_NEAR(gaps[0].least, -0.1, 1e-13);
   EXPECT_NEAR(gaps[0].overlap, 0.4, 1e-12);
   const auto lines = state::overlap_warnings(pairs, gaps);
@@ -307,7 +307,7 @@ TEST(EdgeOfTheMaster, ForcesFadeAsItShrinks)
                                   "set Pairs = up.bottom: lo.top\nset Slave = first\n"
                                   "set Method = nodal\nend\n",
                                 exact);
-    const auto          &contact = solved.solver.contact();
+    const auto          &contact = solved.solver.contact(0);
     const auto           x       = solved.solver.surface().gather(solved.positions);
     double               sum = 0., at_end = 0.;
     for (unsigned int i = 0; i < contact.places().size(); ++i)

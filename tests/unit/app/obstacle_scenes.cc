@@ -158,7 +158,7 @@ TEST(Obstacles, MoveIntoBodiesWithoutAWord)
 {
   const auto overlap_of = [](const std::vector<std::string> &sets) {
     const SolvedScene<3> solved(punched_block, sets);
-    const auto          &contact = solved.solver.contact();
+    const auto          &contact = solved.solver.contact(0);
     EXPECT_GT(solved.state.active_contacts, 0u);
     EXPECT_EQ(state::overlap_warnings(contact.pairs(), contact.paired_gaps()).empty(),
               contact.paired_gaps()[0].overlap < state::large_overlap);

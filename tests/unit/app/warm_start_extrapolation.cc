@@ -124,13 +124,13 @@ TEST(WarmStartExtrapolation, GoesOnFromItsBytesBitForBit)
 {
   const auto             history = around(1e-2, 1.);
   WarmStartExtrapolation other({1., 1.});
-  ASSERT_TRUE(other.read(history.bytes(), 3, 2));
+  ASSERT_TRUE(other.read(history.bytes(), {3, 3}));
   const auto a = history.at({0.41, 0.23}), b = other.at({0.41, 0.23});
   for (unsigned int i = 0; i < 3; ++i)
     EXPECT_EQ(a[0].lambda(i), b[0].lambda(i));
-  EXPECT_FALSE(other.read(history.bytes(), 4, 2));
+  EXPECT_FALSE(other.read(history.bytes(), {3, 4}));
   EXPECT_TRUE(other.at({0.41, 0.23}).empty());
-  EXPECT_FALSE(other.read(history.bytes().substr(1), 3, 2));
-  EXPECT_TRUE(other.read("", 3, 2));
+  EXPECT_FALSE(other.read(history.bytes().substr(1), {3, 3}));
+  EXPECT_TRUE(other.read("", {3, 3}));
   EXPECT_TRUE(other.at({0.41, 0.23}).empty());
 }

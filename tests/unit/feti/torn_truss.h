@@ -6,6 +6,7 @@
 #include <unit/feti/truss_block.h>
 
 #include <memory>
+#include <set>
 #include <sstream>
 
 namespace snug::test {
@@ -216,10 +217,15 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
       loads.push_back(truss_loads(blocks[s], 2));
       rows_of_B.emplace_back();
       entries.emplace_back();
+      std::set<unsigned int> boundary;
       for (unsigned int i = 0; i < n_rows(); ++i)
         for (unsigned int j = start[s]; j < start[s + 1]; ++j)
           if (B(i, j) != 0.)
-            entries.back().push_back({i, j - start[s]});
+            {
+              entries.back().push_back({i, j - start[s]});
+              boundary.insert(j - start[s]);
+            }
+      mine.back().boundary.assign(boundary.begin(), boundary.end());
     }
   table.first = ids.empty() ? blocks.size() : ids[0];
   layout = std::make_unique<feti::RowLayout>(MPI_COMM_WORLD, owned(bounded), entries, table.first);
@@ -233,9 +239,8 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
   qp::MultiVector gap(layout->n_owned());
   for (unsigned int i = 0; i < gap.n_rows(); ++i)
     gap(i) = layout->bounded()[i] ? 0.01 : 0.;
-  linearization =
-    std::make_unique<feti::Linearization>(*structure, mine, std::move(rows_of_B),
-                                          feti::FactorsOfSubdomains(mine.size()), nullptr);
+  linearization = std::make_unique<feti::Linearization>(*structure, mine, std::move(rows_of_B),
+                                                        feti::SharedOperators(mine.size()));
   return std::make_unique<feti::LoadedProblem>(*linearization, loads, gap);
 }
 

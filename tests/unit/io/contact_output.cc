@@ -52,12 +52,13 @@ struct ContactScene
 
   typename io::ContactOutput<dim>::Sources sources() const
   {
-    return {mesh, surface, pairs, places, shared};
+    return {mesh, surface, pairs, places, shared, placed};
   }
 
   mesh::BodyMesh<dim>                       mesh;
   std::pair<unsigned int, unsigned int>     slave, master;
   mesh::Surface<dim>                        surface;
+  contact::PlacedSurface<dim>               placed{surface, {}};
   std::vector<contact::JoinedPair>          pairs;
   std::vector<contact::RowPlace>            places;
   std::vector<contact::DependentMultiplier> shared;
@@ -184,7 +185,8 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
   state::ContactState<2>                          state;
   state.positions    = mesh.reference_positions();
   state.displacement = mesh.reference_positions();
-  output.write({mesh, surface, pairs, places, shared}, 0., state);
+  output.write({mesh, surface, pairs, places, shared, contact::PlacedSurface<2>(surface, {})}, 0.,
+               state);
   if (!scratch.is_first())
     return;
   EXPECT_EQ(test::read_vtu(test::read_file(scratch.file("contact-0000.vtu"))).n_points, 0u);

@@ -35,11 +35,15 @@ struct Bodies
     , models(test::two_bodies<dim>())
   {}
 
-  typename io::FieldOutput<dim>::Sources sources() const { return {mesh, tearing, models}; }
+  typename io::FieldOutput<dim>::Sources sources() const
+  {
+    return {mesh, tearing, models, position};
+  }
 
   const mesh::BodyMesh<dim>                mesh;
   const mesh::Tearing                      tearing;
   const std::vector<state::BodyModel<dim>> models;
+  contact::Position<dim>                   position;
 };
 
 scene::OutputParameters a_file_per_rank()
@@ -238,7 +242,7 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
   models[0].materials        = {{1., 0.3}};
   const auto         tearing = test::one_subdomain_per_rank(mesh);
   io::FieldOutput<2> output(scratch.path, a_file_per_rank());
-  output.write({mesh, tearing, models}, 0., linear_state(mesh));
+  output.write({mesh, tearing, models, contact::Position<2>()}, 0., linear_state(mesh));
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   EXPECT_EQ(vtu.n_cells, mesh.cells().size());
 }

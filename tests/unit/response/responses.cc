@@ -115,9 +115,9 @@ Parts parts_at(const Problem<dim>                 &problem,
                const typename Problem<dim>::Field &positions)
 {
   const auto               &solver = problem.solver;
-  const auto                rows   = solver.rows(positions);
+  const auto                rows   = solver.rows(positions, 0);
   const auto                loads  = solver.loads(positions, 0);
-  const auto                lambda = solver.gluing().layout().to_local(state.dual.lambda);
+  const auto                lambda = solver.gluing(0).layout().to_local(state.dual.lambda);
   std::vector<feti::BEntry> B;
   Parts                     parts;
   for (unsigned int s = 0; s < state.u.size(); ++s)
@@ -132,11 +132,11 @@ Parts parts_at(const Problem<dim>                 &problem,
           parts.strain_energy += state.u[s](i) * Ku(i) / 2;
           parts.work += state.u[s](i) * loads[s](i);
         }
-      solver.gluing().fill_B(s, rows, B);
+      solver.gluing(0).fill_B(s, rows, B);
       for (const auto &entry : B)
         parts.contact += lambda(entry.row) * entry.value * state.u[s](entry.dof);
     }
-  const auto g = solver.gluing().right_hand_side(rows, 0);
+  const auto g = solver.gluing(0).right_hand_side(rows, 0);
   for (unsigned int i = 0; i < g.n_rows(); ++i)
     parts.contact -= state.dual.lambda(i) * g(i);
   return {sum(parts.strain_energy), sum(parts.work), sum(parts.contact)};

@@ -34,8 +34,8 @@ sensitivity::KktVectors residuals_at(const Problem<dim>                 &problem
                                      const typename Problem<dim>::Field &positions)
 {
   const auto               &solver = problem.solver;
-  const auto               &layout = solver.gluing().layout();
-  const auto                rows   = solver.rows(positions);
+  const auto               &layout = solver.gluing(0).layout();
+  const auto                rows   = solver.rows(positions, 0);
   const auto                loads  = solver.loads(positions, 0);
   const auto                lambda = layout.to_local(state.dual.lambda);
   qp::MultiVector           Bu(layout.n_local());
@@ -50,14 +50,14 @@ sensitivity::KktVectors residuals_at(const Problem<dim>                 &problem
       auto &r = result.primal.back();
       K.multiply_add(-1., state.u[s], r);
       r.add(1., loads[s]);
-      solver.gluing().fill_B(s, rows, B);
+      solver.gluing(0).fill_B(s, rows, B);
       for (const auto &entry : B)
         {
           r(entry.dof) -= entry.value * lambda(entry.row);
           Bu(entry.row) += entry.value * state.u[s](entry.dof);
         }
     }
-  result.dual = solver.gluing().right_hand_side(rows, 0);
+  result.dual = solver.gluing(0).right_hand_side(rows, 0);
   result.dual.add(-1., layout.to_owned(Bu));
   return result;
 }

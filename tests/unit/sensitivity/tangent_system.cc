@@ -46,7 +46,7 @@ void expect_optimal(const TestScene<dim> &scene, sensitivity::Solves solves)
 
   auto gaps = feti.linearization().multiply_B(derivatives.primal);
   gaps.add(-1., data.dual);
-  const auto &of_contact = problem.solver.gluing().contact_of_row();
+  const auto &of_contact = problem.solver.gluing(0).contact_of_row();
   double      error      = 0.;
   for (unsigned int j = 0; j < V.size(); ++j)
     for (unsigned int i = 0; i < gaps.n_rows(); ++i)

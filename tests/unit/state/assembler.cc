@@ -72,7 +72,7 @@ TEST(Assembler, BodyModesAreContinuous)
       motion.back().add_product(1., system.R, system.Z);
     }
   const auto          B_motion = feti.linearization().multiply_B(motion);
-  const auto         &layout   = problem.solver.gluing().layout();
+  const auto         &layout   = problem.solver.gluing(0).layout();
   std::vector<double> values;
   for (const auto &B : feti.linearization().B())
     for (const auto &entry : B)

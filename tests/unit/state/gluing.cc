@@ -18,8 +18,8 @@ using Columns = std::map<std::pair<unsigned int, unsigned int>, std::vector<RowE
 template <int dim>
 Columns owned_columns(const Problem<dim> &problem)
 {
-  const auto               &gluing = problem.solver.gluing();
-  const auto                rows   = problem.solver.rows(problem.mesh.reference_positions());
+  const auto               &gluing = problem.solver.gluing(0);
+  const auto                rows   = problem.solver.rows(problem.mesh.reference_positions(), 0);
   std::vector<double>       values;
   std::vector<feti::BEntry> B;
   for (unsigned int s = 0; s < problem.tearing.subdomains.size(); ++s)
@@ -49,7 +49,7 @@ std::pair<double, double> distance_from_orthonormal(const Problem<dim> &problem)
     for (const RowEntry &a : column.second)
       for (const RowEntry &b : column.second)
         BB[{a.row, b.row}] += a.value * b.value;
-  const auto &bounded = problem.solver.gluing().layout().bounded();
+  const auto &bounded = problem.solver.gluing(0).layout().bounded();
   double      gluing = 0., all = 0.;
   for (const auto &entry : BB)
     {
@@ -155,7 +155,7 @@ void expect_rows_of_B(const TestScene<dim> &scene)
   const auto   state  = problem.solve(); // fills B at the design
   const auto   u      = continuous_field(problem);
   const auto   Bu     = problem.solver.feti(state).linearization().multiply_B(u);
-  const auto  &gluing = problem.solver.gluing();
+  const auto  &gluing = problem.solver.gluing(0);
   for (unsigned int i = 0; i < Bu.n_rows(); ++i)
     EXPECT_TRUE(gluing.layout().bounded()[i] || std::abs(Bu(i)) < 1e-13);
   // contact rows: the physical row over nr, on the displacement field
@@ -165,7 +165,7 @@ void expect_rows_of_B(const TestScene<dim> &scene)
     for (unsigned int a = 0; a < u[s].n_rows(); ++a)
       field[problem.tearing.subdomains[s].nodes[a / dim]][a % dim] = u[s](a);
   const auto at_surface = surface.gather(field);
-  const auto rows       = problem.solver.rows(state.positions);
+  const auto rows       = problem.solver.rows(state.positions, 0);
   const auto of_rows    = gluing.gather_contact(Bu.column(0));
   const auto right      = gluing.right_hand_side(rows, 0);
   const auto gaps       = gluing.gather_contact(right.column(0));
@@ -207,10 +207,10 @@ TEST(Gluing, RowsBetweenHeldNodesVanish)
   scene.bodies[0].supports[face_index(0, 0)] = {0, 1};
   scene.bodies[1].supports[face_index(0, 0)] = {0, 1};
   Problem<2> problem(scene);
-  EXPECT_EQ(problem.solver.gluing().vanished_rows().size(), 1u);
+  EXPECT_EQ(problem.solver.gluing(0).vanished_rows().size(), 1u);
   const auto state = problem.solve();
   EXPECT_LE(state.certificate.worst(), 1e-10);
-  EXPECT_EQ(state.contact[problem.solver.gluing().vanished_rows()[0]].force, 0.);
+  EXPECT_EQ(state.contact[problem.solver.gluing(0).vanished_rows()[0]].force, 0.);
   // lifting that corner into the held punch cannot be
   scene.control_points = {2, 1};
   Problem<2> lifted(scene);

@@ -39,7 +39,7 @@ Answer answer(const TestScene<3> &scene)
   std::map<std::pair<double, double>, double> sorted;
   for (unsigned int i = 0; i < state.contact.size(); ++i)
     {
-      const auto &slave            = x[problem.solver.contact().places()[i].slave];
+      const auto &slave            = x[problem.solver.contact(0).places()[i].slave];
       sorted[{slave[0], slave[1]}] = state.contact[i].pressure;
     }
   for (const auto &entry : sorted)

@@ -256,7 +256,7 @@ public:
     const unsigned int n_cases = std::max<std::size_t>(1, scene.cases.size());
     for (unsigned int c = 0; c < n_cases; ++c)
       {
-        model.load_cases.push_back({"case " + std::to_string(c), {}});
+        model.load_cases.push_back({"case " + std::to_string(c), {}, {}});
         for (unsigned int b = 0; b < scene.bodies.size(); ++b)
           model.load_cases.back().bodies.push_back(
             make_loads(scene.bodies[b],

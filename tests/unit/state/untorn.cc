@@ -41,7 +41,7 @@ void expect_same_contact(const Problem<dim>             &problem,
   double largest[2] = {0., 0.}, error[2] = {0., 0.};
   for (unsigned int i = 0; i < state.contact.size(); ++i)
     {
-      const unsigned int slave  = problem.solver.contact().places()[i].slave;
+      const unsigned int slave  = problem.solver.contact(0).places()[i].slave;
       const auto        &other  = untorn.contacts.at(untorn.node_at[0].at(node_key<dim>(x[slave])));
       const double       here[] = {state.contact[i].force, state.contact[i].pressure};
       const double       there[] = {other.force, other.pressure};
