@@ -12,29 +12,53 @@ Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem, const Design &paired)
   const bool re_pairs = is_relative_to_first() && paired != start;
   if (re_pairs)
     pair(start);
+  Quantity objective;
+  // The problem owns the objective.
+  objective.response    = {std::shared_ptr<void>(), problem.objective.get()};
+  objective.combination = problem.scene.optimization.combine;
+  for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+    objective.load_cases.push_back(c);
+  add_quantity(std::move(objective));
   for (const auto &[name, limit] : problem.scene.optimization.constraints)
-    constraints.push_back(make_constraint(name, limit));
-  for (const Constraint &constraint : constraints)
-    measured.push_back({constraint.response.get(), constraint.load_case});
-  if (problem.scene.optimization.combine == optimization::Combination::worst &&
-      problem.n_load_cases() > 1)
-    problem.scale_objective(first_states());
+    add_quantity(make_constraint(name, limit));
   if (re_pairs)
     pair(paired);
 }
 
-/// Return whether a limit or the scale of 'worst' needs the states of the first design.
+template <int dim>
+void Evaluator<dim>::add_quantity(Quantity quantity)
+{
+  if (quantity.load_cases.size() == 1 && quantity.combination.n_maxima() == 1)
+    quantity.combination = {}; // a maximum of one value
+  quantity.first = measured.size();
+  if (quantity.weights.empty())
+    for (const unsigned int c : quantity.load_cases)
+      quantity.weights.push_back(problem.weight(c));
+  for (const unsigned int c : quantity.load_cases)
+    measured.push_back({quantity.response.get(), c});
+  quantities.push_back(std::move(quantity));
+}
+
+template <int dim>
+std::vector<double> Evaluator<dim>::Quantity::term_factors(const unsigned int k) const
+{
+  auto factors = weights;
+  // The second maximum of a range is that of the negative values.
+  for (double &factor : factors)
+    factor *= k == 0 ? 1. : -1.;
+  return factors;
+}
+
+/// Return whether a limit needs the states of the first design.
 template <int dim>
 bool Evaluator<dim>::is_relative_to_first() const
 {
-  const auto &parameters  = problem.scene.optimization;
-  const auto  is_relative = [&](const auto &constraint) {
+  const auto &constraints = problem.scene.optimization.constraints;
+  return std::any_of(constraints.begin(), constraints.end(), [&](const auto &constraint) {
     const auto of = scene::constraint_name(problem.scene, constraint.first);
     return optimization::read_limit(constraint.second).of_initial &&
            problem.make_response(of.response)->needs_solution();
-  };
-  return (parameters.combine == optimization::Combination::worst && problem.n_load_cases() > 1) ||
-         std::any_of(parameters.constraints.begin(), parameters.constraints.end(), is_relative);
+  });
 }
 
 template <int dim>
@@ -46,22 +70,45 @@ const typename Evaluator<dim>::States &Evaluator<dim>::first_states()
 }
 
 template <int dim>
-typename Evaluator<dim>::Constraint Evaluator<dim>::make_constraint(const std::string &name,
-                                                                    const std::string &limit)
+typename Evaluator<dim>::Quantity Evaluator<dim>::make_constraint(const std::string &name,
+                                                                  const std::string &limit)
 {
   const auto of    = scene::constraint_name(problem.scene, name);
   const auto bound = optimization::read_limit(limit);
-  Constraint constraint{problem.make_response(of.response), of.load_case.value_or(0), bound.value,
-                        bound.side};
+  Quantity   constraint;
+  constraint.response = problem.make_response(of.response);
+  constraint.target   = bound.value;
+  constraint.side     = bound.side;
+  if (of.combination)
+    {
+      constraint.combination = *of.combination;
+      for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+        constraint.load_cases.push_back(c);
+    }
+  else
+    {
+      constraint.load_cases = {of.load_case.value_or(0)};
+      constraint.weights    = {1.};
+    }
   if (!bound.of_initial)
     return constraint;
-  state::ContactState<dim> geometry; // without a solution
-  geometry.positions  = problem.positions(problem.shapes->start());
-  const bool of_state = constraint.response->needs_solution();
-  constraint.target *=
-    constraint.response->value(*problem.solver,
-                               of_state ? first_states()[constraint.load_case] : geometry);
+  States geometry(1); // without a solution
+  geometry.front().positions = problem.positions(problem.shapes->start());
+  if (constraint.response->needs_solution())
+    constraint.target *= constraint.combined(values(constraint, first_states())).value;
+  else
+    constraint.target *= constraint.response->value(*problem.solver, geometry.front());
   return constraint;
+}
+
+/// Return the values of the response of a quantity in its load cases.
+template <int dim>
+std::vector<double> Evaluator<dim>::values(const Quantity &quantity, const States &states) const
+{
+  std::vector<double> result;
+  for (const unsigned int c : quantity.load_cases)
+    result.push_back(quantity.response->value(*problem.solver, states[c]));
+  return result;
 }
 
 template <int dim>
@@ -101,10 +148,21 @@ Analysis<dim> &Evaluator<dim>::analysis(const Design &design)
       if (is_predicted())
         parameters.method = sensitivity::Method::direct;
       current->gradients =
-        sensitivity::combined_gradients(problem.load_cases(current->states, design, parameters),
-                                        *problem.objective,
-                                        problem.combined_objective(current->states).factors,
+        sensitivity::gradients_of_cases(problem.load_cases(current->states, design, parameters),
                                         measured);
+      auto                                    &of_cases = current->gradients.of_response;
+      std::vector<sensitivity::Gradient<dim>> combined, terms;
+      for (const Quantity &quantity : quantities)
+        {
+          const auto factors = quantity.combined(values(quantity, current->states)).factors;
+          combined.push_back(sensitivity::weighted_sum(factors, of_cases, quantity.first));
+          for (unsigned int k = 0; k < quantity.combination.n_maxima(); ++k)
+            for (unsigned int c = 0; c < factors.size(); ++c)
+              terms.push_back(sensitivity::weighted_sum({quantity.term_factors(k)[c]}, of_cases,
+                                                        quantity.first + c));
+        }
+      combined.insert(combined.end(), terms.begin(), terms.end());
+      of_cases = std::move(combined);
     }
   // The solver may have been at another design since, for example at the first one.
   for (const auto &state : current->states)
@@ -118,11 +176,12 @@ void Evaluator<dim>::differentiate(const Design &design, optimization::Evaluatio
   const auto &at      = analysis(design);
   evaluation.gradient = at.gradients.of_response.front().values;
   evaluation.jacobian.clear();
-  for (unsigned int i = 0; i < constraints.size(); ++i)
+  for (unsigned int i = 1; i < at.gradients.of_response.size(); ++i)
     {
-      evaluation.jacobian.push_back(at.gradients.of_response[1 + i].values);
-      for (double &entry : evaluation.jacobian.back())
-        entry *= constraints[i].sign();
+      evaluation.jacobian.push_back(at.gradients.of_response[i].values);
+      if (i < quantities.size())
+        for (double &entry : evaluation.jacobian.back())
+          entry *= quantities[i].sign();
     }
   if (is_predicted())
     evaluation.linearization = linearized_contact(at);
@@ -133,19 +192,45 @@ void Evaluator<dim>::differentiate(const Design &design, optimization::Evaluatio
 template <int dim>
 DesignValues Evaluator<dim>::values(const States &states) const
 {
-  DesignValues result;
-  result.objective = problem.combined_objective(states).value;
-  for (const Constraint &constraint : constraints)
+  DesignValues        result;
+  std::vector<double> terms;
+  for (unsigned int i = 0; i < quantities.size(); ++i)
     {
-      const double J = constraint.response->value(*problem.solver, states[constraint.load_case]);
-      const double c = constraint.sign() * (J - constraint.target);
+      const Quantity &quantity = quantities[i];
+      const auto      of_cases = values(quantity, states);
+      const double    J        = quantity.combined(of_cases).value;
+      for (unsigned int k = 0; k < quantity.combination.n_maxima(); ++k)
+        for (unsigned int c = 0; c < of_cases.size(); ++c)
+          terms.push_back(quantity.term_factors(k)[c] * of_cases[c]);
+      if (i == 0)
+        {
+          result.objective = J;
+          continue;
+        }
+      const double c = quantity.sign() * (J - quantity.target);
       result.constraints.push_back(c);
       const double size =
-        constraint.side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
-      result.violation =
-        std::max(result.violation,
-                 size / (constraint.target == 0. ? 1. : std::abs(constraint.target)));
+        quantity.side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
+      result.violation = std::max(result.violation,
+                                  size / (quantity.target == 0. ? 1. : std::abs(quantity.target)));
     }
+  result.constraints.insert(result.constraints.end(), terms.begin(), terms.end());
+  return result;
+}
+
+/// Return the maxima in the objective and the constraints. Their terms follow the constraints.
+template <int dim>
+std::vector<optimization::Maximum> Evaluator<dim>::maxima() const
+{
+  std::vector<optimization::Maximum> result;
+  auto                               begin = static_cast<unsigned int>(quantities.size()) - 1;
+  for (unsigned int i = 0; i < quantities.size(); ++i)
+    for (unsigned int k = 0; k < quantities[i].combination.n_maxima(); ++k)
+      {
+        const auto n = static_cast<unsigned int>(quantities[i].load_cases.size());
+        result.push_back({static_cast<int>(i) - 1, begin, begin + n});
+        begin += n;
+      }
   return result;
 }
 
@@ -173,12 +258,18 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
       return predicted(at, dx);
     };
   result.predicts_objective = is_predicted() && measures_contact(*problem.objective);
-  for (const Constraint &constraint : constraints)
+  for (unsigned int i = 1; i < quantities.size(); ++i)
     {
-      result.constraint_scales.push_back(std::abs(constraint.target));
-      result.relations.push_back(constraint.side == optimization::Limit::Side::equal
+      result.constraint_scales.push_back(std::abs(quantities[i].target));
+      result.relations.push_back(quantities[i].side == optimization::Limit::Side::equal
                                    ? optimization::Relation::equal
                                    : optimization::Relation::at_most);
+    }
+  result.maxima = maxima();
+  if (!result.maxima.empty())
+    {
+      result.constraint_scales.resize(result.maxima.back().end, 1.);
+      result.relations.resize(result.maxima.back().end, optimization::Relation::term);
     }
   return result;
 }

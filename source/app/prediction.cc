@@ -14,9 +14,12 @@ constexpr double area_step = 1e-3;
 /// Areas do not fall below this part of what they were.
 constexpr double least_area = 1e-3;
 
+} // namespace
+
 /// The contact rows of one load case as linear functions of the design: for each row its force and
 /// its area, and then for each variable their derivatives.
-class LinearRows
+template <int dim>
+class Evaluator<dim>::LinearRows
 {
 public:
   LinearRows(const double *numbers, const unsigned int n_rows, const unsigned int n_variables)
@@ -65,7 +68,6 @@ private:
   const double *force(unsigned int place) const { return numbers + 2 * place * n_rows; }
   const double *area(unsigned int place) const { return force(place) + n_rows; }
 };
-} // namespace
 
 template <int dim>
 bool Evaluator<dim>::measures_contact(const response::Response<dim> &response) const
@@ -81,10 +83,9 @@ bool Evaluator<dim>::is_predicted() const
   if (method ? *method != sensitivity::Method::direct
              : problem.shapes->n_variables() > most_predicted)
     return false;
-  return measures_contact(*problem.objective) ||
-         std::any_of(constraints.begin(), constraints.end(), [&](const Constraint &constraint) {
-           return measures_contact(*constraint.response);
-         });
+  return std::any_of(quantities.begin(), quantities.end(), [&](const Quantity &quantity) {
+    return measures_contact(*quantity.response);
+  });
 }
 
 /// Return the LinearRows of all load cases at a design, one after the other. Collective.
@@ -150,51 +151,79 @@ Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<dou
       numbers += LinearRows::size(n_rows, n);
       rows.push_back(of_cases.back().at(dx));
     }
-  const auto linear = [&](const double value, const std::vector<double> &gradient) {
-    double sum = value;
+  Evaluation result = at;
+  const auto linear = [&](double &value, const std::vector<double> &gradient) {
     for (unsigned int j = 0; j < n; ++j)
-      sum += gradient[j] * dx[j];
+      value += gradient[j] * dx[j];
+  };
+  linear(result.objective, at.gradient);
+  for (unsigned int j = 0; j < at.constraints.size(); ++j)
+    linear(result.constraints[j], at.jacobian[j]);
+  for (unsigned int i = 0; i < quantities.size(); ++i)
+    if (measures_contact(*quantities[i].response))
+      predict(i, of_cases, rows, result);
+  return result;
+}
+
+/// Predict quantity @p i and the terms of its maxima, of a response that measures contact.
+template <int dim>
+void Evaluator<dim>::predict(const unsigned int                         i,
+                             const std::vector<LinearRows>             &of_cases,
+                             const std::vector<response::PressureRows> &rows,
+                             Evaluation                                &result) const
+{
+  const Quantity                 &quantity = quantities[i];
+  const unsigned int              n        = problem.shapes->n_variables();
+  std::vector<response::Measured> measured;
+  std::vector<double>             values;
+  for (const unsigned int c : quantity.load_cases)
+    {
+      measured.push_back(*quantity.response->of_contact(*problem.solver, c, rows[c]));
+      values.push_back(measured.back().value);
+    }
+  const auto gradient = [&](const std::vector<double> &factors) {
+    std::vector<double> sum(n, 0.);
+    for (unsigned int k = 0; k < factors.size(); ++k)
+      if (factors[k] != 0.)
+        of_cases[quantity.load_cases[k]].add(measured[k], factors[k], sum);
     return sum;
   };
-  Evaluation result = at;
-  if (measures_contact(*problem.objective))
+  const auto combined = quantity.combined(values);
+  if (i == 0)
     {
-      std::vector<response::Measured> measured;
-      std::vector<double>             values;
-      for (unsigned int c = 0; c < rows.size(); ++c)
-        {
-          measured.push_back(*problem.objective->of_contact(solver, c, rows[c]));
-          values.push_back(measured.back().value);
-        }
-      const auto combined = problem.combined(values);
-      result.objective    = combined.value;
-      result.gradient.assign(n, 0.);
-      for (unsigned int c = 0; c < rows.size(); ++c)
-        of_cases[c].add(measured[c], combined.factors[c], result.gradient);
+      result.objective = combined.value;
+      result.gradient  = gradient(combined.factors);
     }
   else
-    result.objective = linear(at.objective, at.gradient);
-  for (unsigned int k = 0; k < constraints.size(); ++k)
     {
-      const auto &constraint = constraints[k];
-      const auto  measured =
-        constraint.response->of_contact(solver, constraint.load_case, rows[constraint.load_case]);
-      if (!measured)
-        {
-          result.constraints[k] = linear(at.constraints[k], at.jacobian[k]);
-          continue;
-        }
-      result.constraints[k] = constraint.sign() * (measured->value - constraint.target);
-      result.jacobian[k].assign(n, 0.);
-      of_cases[constraint.load_case].add(*measured, constraint.sign(), result.jacobian[k]);
+      auto factors = combined.factors;
+      for (double &factor : factors)
+        factor *= quantity.sign();
+      result.constraints[i - 1] = quantity.sign() * (combined.value - quantity.target);
+      result.jacobian[i - 1]    = gradient(factors);
     }
-  return result;
+  unsigned int k = 0;
+  for (const auto &maximum : maxima())
+    if (maximum.of == static_cast<int>(i) - 1)
+      {
+        const auto factors = quantity.term_factors(k++);
+        for (unsigned int c = 0; c < factors.size(); ++c)
+          {
+            std::vector<double> factor(factors.size(), 0.);
+            factor[c]                               = factors[c];
+            result.constraints[maximum.begin + c] = factors[c] * values[c];
+            result.jacobian[maximum.begin + c]    = gradient(factor);
+          }
+      }
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                    \
   template bool Evaluator<dim>::measures_contact(const response::Response<dim> &) const;         \
   template bool Evaluator<dim>::is_predicted() const;                                            \
   template std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &) const;  \
+  template void Evaluator<dim>::predict(unsigned int, const std::vector<LinearRows> &,           \
+                                        const std::vector<response::PressureRows> &,             \
+                                        Evaluation &) const;                                     \
   template Evaluation Evaluator<dim>::predicted(const Evaluation &, const std::vector<double> &) \
     const;
 SNUG_INSTANTIATE(2)

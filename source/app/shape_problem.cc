@@ -66,47 +66,17 @@ ShapeProblem<dim>::solve(const Design &design, const std::vector<qp::WarmStart> 
 }
 
 template <int dim>
-std::vector<double> ShapeProblem<dim>::objective_values(const States &states) const
-{
-  std::vector<double> values;
-  for (const auto &state : states)
-    values.push_back(objective->value(*solver, state));
-  return values;
-}
-
-/// Return the largest weighted magnitude of the values of the load cases.
-template <int dim>
-double ShapeProblem<dim>::scale(const std::vector<double> &values) const
-{
-  double largest = 0.;
-  for (unsigned int c = 0; c < values.size(); ++c)
-    largest = std::max(largest, std::abs(weight(c) * values[c]));
-  return largest;
-}
-
-template <int dim>
-void ShapeProblem<dim>::scale_objective(const States &states)
-{
-  objective_scale = scale(objective_values(states));
-}
-
-template <int dim>
 optimization::Combined ShapeProblem<dim>::combined_objective(const States &states) const
 {
-  return combined(objective_values(states));
+  std::vector<double> values, weights;
+  for (unsigned int c = 0; c < states.size(); ++c)
+    {
+      values.push_back(objective->value(*solver, states[c]));
+      weights.push_back(weight(c));
+    }
+  return optimization::combined(scene.optimization.combine, values, weights);
 }
 
-template <int dim>
-optimization::Combined ShapeProblem<dim>::combined(const std::vector<double> &values) const
-{
-  std::vector<double> weights;
-  for (unsigned int c = 0; c < values.size(); ++c)
-    weights.push_back(weight(c));
-  return optimization::combined(scene.optimization.combine, values, weights,
-                                objective_scale > 0. ? objective_scale : scale(values));
-}
-
-/// Return the weight of a load case in the objective.
 template <int dim>
 double ShapeProblem<dim>::weight(const unsigned int load_case) const
 {

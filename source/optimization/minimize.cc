@@ -1,4 +1,5 @@
 #include <snug/base/entries.h>
+#include <snug/optimization/epigraph.h>
 #include <snug/optimization/minimize.h>
 #include <snug/optimization/mma_search.h>
 #include <snug/optimization/trust_region.h>
@@ -146,9 +147,15 @@ minimize(const DesignProblem &problem, const OptimizationParameters &parameters,
   Entries                entries;
   checked.declare(entries);
   entries.check(Origins(), 0);
-  ScaledProblem scaled(problem);
-  check_equalities(scaled, parameters.algorithm);
-  Progress progress(scaled, parameters, hooks);
-  return search(scaled, progress, parameters, hooks);
+  const auto minimize_smooth = [&](const DesignProblem &smooth, const Hooks &its_hooks) {
+    ScaledProblem scaled(smooth);
+    check_equalities(scaled, parameters.algorithm);
+    Progress progress(scaled, parameters, its_hooks);
+    return search(scaled, progress, parameters, its_hooks);
+  };
+  if (problem.maxima.empty())
+    return minimize_smooth(problem, hooks);
+  const Epigraph epigraph(problem);
+  return epigraph.result(minimize_smooth(epigraph.smooth_problem(), epigraph.hooks(hooks)));
 }
 } // namespace snug::optimization

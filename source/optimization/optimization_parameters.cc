@@ -9,7 +9,17 @@ void OptimizationParameters::declare(Entries &entries)
   entries.add(
     "Objective", objective,
     "The response to be minimized: a name in 'Responses' or a quantity of subsection Response.");
-  entries.add("Combine", combine, "The combination of the objectives of several load cases.");
+  entries.add("Combine", combine,
+              with_meanings(allowed("sum, mean, worst, range, deviation, K deviation or mean + K "
+                                    "deviation"),
+                            {{"sum", "weighted sum"},
+                             {"mean", "mean; the weights are probabilities"},
+                             {"worst", "exact maximum of the weighted values"},
+                             {"range", "largest minus smallest of the weighted values"},
+                             {"mean + 2 deviation",
+                              "mean plus twice the standard deviation; without 'mean +' the "
+                              "deviation alone"}}),
+              "The combination of the objective of several load cases.");
   entries.add(
     "Constraints", constraints,
     with_meanings(allowed("a list 'response: limit, response: limit, ...'"),
@@ -17,9 +27,10 @@ void OptimizationParameters::declare(Entries &entries)
                                          "design; '=' is optional"},
                    {"peak: <= 120", "upper limit in the units of the response"},
                    {"tip: >= 0.9 initial", "lower limit relative to the first design"},
-                   {"closing.tip: <= 5", "limit in the load case closing; with several load "
-                                         "cases, a response of the state needs the name of "
-                                         "one"}}),
+                   {"closing.tip: <= 5", "limit in the load case closing"},
+                   {"worst of peak: <= 120",
+                    "limit of a combination over the load cases, see 'Combine'. With several load "
+                    "cases, a response of the state needs a load case or a combination."}}),
     "The constraints of the optimization.");
   entries.add("Maximum evaluations", maximum_evaluations, at_least(1),
               "The maximum number of evaluated designs.");

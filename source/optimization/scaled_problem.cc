@@ -196,6 +196,11 @@ ScaledProblem::remembered(const std::shared_ptr<Point> &point)
   return point;
 }
 
+double ScaledProblem::length(const std::vector<double> &d) const
+{
+  return largest(std::vector<double>(d.begin(), d.begin() + n_nonlinear()));
+}
+
 std::vector<double> ScaledProblem::gradient(const Point &point) const
 {
   const auto         &evaluation = differentiated(point);

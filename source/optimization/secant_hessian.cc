@@ -20,24 +20,27 @@ void SecantHessian::guess(const double curvature)
   measured = false;
 }
 
-void SecantHessian::raise(const std::vector<double> &d, const double curvature)
+void SecantHessian::raise(const std::vector<double> &d, const double product)
 {
-  const double dd = dot(d, d), missing = curvature - dot(d, times(d)) / dd;
-  if (missing > 0.)
-    add(missing / dd, d);
+  const auto   v  = nonlinear(d);
+  const double vv = dot(v, v), missing = product - dot(d, times(d));
+  if (missing > 0. && vv > 0.)
+    add(missing / (vv * vv), v);
 }
 
-void SecantHessian::update(const std::vector<double> &s, const std::vector<double> &y)
+void SecantHessian::update(std::vector<double> s, std::vector<double> y)
 {
+  s = nonlinear(s);
+  y = nonlinear(y);
   const double ys = dot(y, s);
   if (!measured && ys > 0.)
     guess(norm(y) / norm(s));
-  else if (const double seen = ys / dot(s, times(s)); seen < 1.)
+  else if (const double seen = ys / dot(s, nonlinear(times(s))); seen < 1.)
     for (auto &row : rows)
       for (double &entry : row)
         entry *= std::max(seen, least_left);
   measured          = true;
-  const auto   Bs   = times(s);
+  const auto   Bs   = nonlinear(times(s));
   const double sBs  = dot(s, Bs);
   const double part = ys >= least_part * sBs ? 1. : (1. - least_part) * sBs / (sBs - ys);
   auto         r    = Bs;
@@ -52,10 +55,17 @@ void SecantHessian::update(const std::vector<double> &s, const std::vector<doubl
 
 std::vector<double> SecantHessian::times(const std::vector<double> &d) const
 {
+  const auto          v = nonlinear(d);
   std::vector<double> result;
   for (const auto &row : rows)
-    result.push_back(dot(row, d));
+    result.push_back(dot(row, v));
+  result.resize(n, 0.);
   return result;
+}
+
+std::vector<double> SecantHessian::nonlinear(const std::vector<double> &v) const
+{
+  return {v.begin(), v.begin() + rows.size()};
 }
 
 /// B += factor v v'.

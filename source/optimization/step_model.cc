@@ -135,8 +135,11 @@ void StepModel::box(const double radius, Vector &lower, Vector &upper) const
 {
   for (unsigned int i = 0; i < size(); ++i)
     {
-      lower.push_back(std::max(-radius, problem.lower()[i] - at.y[i]));
-      upper.push_back(std::min(radius, problem.upper()[i] - at.y[i]));
+      // The model is exact in variables that enter linearly.
+      const double reach =
+        i < problem.n_nonlinear() ? radius : std::numeric_limits<double>::infinity();
+      lower.push_back(std::max(-reach, problem.lower()[i] - at.y[i]));
+      upper.push_back(std::min(reach, problem.upper()[i] - at.y[i]));
     }
 }
 
@@ -146,7 +149,7 @@ Vector StepModel::minimizer(const double radius) const
   for (double unit = radius; unit > 1e-9 * radius;)
     {
       d                   = minimize_from(d, radius, unit);
-      const double length = largest(d);
+      const double length = problem.length(d);
       if (length > well_scaled * unit)
         break;
       unit *= std::max(10. * length / unit, well_scaled);

@@ -34,7 +34,7 @@ TrustRegion::TrustRegion(ScaledProblem                &the_problem,
   , progress(the_progress)
   , parameters(the_parameters)
   , hooks(the_hooks)
-  , hessian(problem.size())
+  , hessian(problem.size(), problem.n_nonlinear())
   , weights(problem.relations().size(), least_weight)
 {}
 
@@ -115,7 +115,7 @@ bool TrustRegion::evaluated(Trial &trial)
   catch (const SolveError &no_value)
     {
       failure = no_value.what();
-      radius  = largest(trial.d) / 4.;
+      radius  = problem.length(trial.d) / 4.;
       failed  = true;
       if (progress.has_gained())
         n_failures = 0;
@@ -143,17 +143,17 @@ StopReason TrustRegion::reject(const Trial &trial)
       trial.predicted <= parameters.objective_tolerance * std::abs(trial.objective))
     return StopReason::objective;
   const double left = trial.slope - trial.actual; // by the curvature along d
-  radius            = largest(trial.d) *
+  radius            = problem.length(trial.d) *
            (trial.slope > 0. && left > 0. ? std::clamp(trial.slope / (2. * left), 0.1, 0.5) : 0.25);
   failure.clear();
   if (hessian.is_measured())
-    hessian.raise(trial.d, 2. * left / dot(trial.d, trial.d));
+    hessian.raise(trial.d, 2. * left);
   return StopReason::none;
 }
 
 StopReason TrustRegion::accept(const StepModel &model, const Trial &trial)
 {
-  const double part = trial.actual / trial.predicted, length = largest(trial.d);
+  const double part = trial.actual / trial.predicted, length = problem.length(trial.d);
   const bool   is_at_end = length > 0.99 * radius;
   const bool   may_grow  = !failed;
   failed                 = false;

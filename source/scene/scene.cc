@@ -72,9 +72,20 @@ ConstraintName constraint_name(const Scene &scene, const std::string &name)
     {
       const std::string prefix = scene.load_cases[c].name + ".";
       if (name.rfind(prefix, 0) == 0)
-        return {name.substr(prefix.size()), c};
+        return {name.substr(prefix.size()), c, {}};
     }
-  return {name, {}};
+  const std::string between = " of ";
+  if (const auto place = name.find(between); place != std::string::npos)
+    try
+      {
+        const auto combination = optimization::Combination::read(trim(name.substr(0, place)));
+        return {trim(name.substr(place + between.size())), {}, combination};
+      }
+    catch (const std::invalid_argument &)
+      {
+        // The name is not a combination.
+      }
+  return {name, {}, {}};
 }
 
 std::optional<response::ResponseParameters> response_called(const Scene       &scene,

@@ -15,7 +15,8 @@ struct Analysis
 {
   typename ShapeProblem<dim>::Design design;
   typename ShapeProblem<dim>::States states;
-  /// of the objective, then of the constraints; empty until Evaluator::analysis() computes them
+  /// of the objective, of the constraints and of the terms of their maxima; empty until
+  /// Evaluator::analysis() computes them
   sensitivity::Gradients<dim> gradients = {};
 };
 
@@ -23,7 +24,7 @@ struct Analysis
 struct DesignValues
 {
   double              objective = 0.;
-  std::vector<double> constraints;    ///< c(x)
+  std::vector<double> constraints;    ///< c(x), then the terms of maxima
   double              violation = 0.; ///< maximum over constraints, relative to the limit
 };
 
@@ -40,8 +41,8 @@ public:
   using States = typename ShapeProblem<dim>::States;
 
   /// Read the constraints. @p paired is the design at which @p problem has searched contact. The
-  /// first design is solved, with a contact search of its own, if a limit is relative to its value
-  /// or if `Combine` = worst, which is scaled by its values. Collective.
+  /// first design is solved, with a contact search of its own, if a limit is relative to its value.
+  /// Collective.
   Evaluator(ShapeProblem<dim> &problem, const Design &paired);
 
   /// Return the values, without gradients. Collective. @throws TangledMesh, SolveError.
@@ -92,23 +93,46 @@ public:
   static constexpr unsigned int most_predicted = 60;
 
 private:
-  struct Constraint
+  /// Contact forces and areas of a load case as linear functions of the variables.
+  class LinearRows;
+
+  /// The objective or a constraint: a response, combined of its values in load cases.
+  struct Quantity
   {
-    std::unique_ptr<response::Response<dim>> response;
-    unsigned int                             load_case;
-    double                                   target;
-    optimization::Limit::Side                side;
+    std::shared_ptr<const response::Response<dim>> response;
+    std::vector<unsigned int>                      load_cases;
+    std::vector<double>                            weights; ///< of the load cases
+    optimization::Combination                      combination = {};
+    double                                         target      = 0.;
+    optimization::Limit::Side                      side        = optimization::Limit::Side::at_most;
+    std::size_t first = 0; ///< place of the first load case in `measured`
 
     /// Return the sign in c = sign (J - target), with c = 0 or c <= 0.
     double sign() const { return side == optimization::Limit::Side::at_least ? -1. : 1.; }
+
+    /// Return J and its derivatives as a function of the values in the load cases.
+    optimization::Combined combined(const std::vector<double> &values) const
+    {
+      return optimization::combined(combination, values, weights);
+    }
+
+    /// Return the factors of the values in the terms of maximum @p k, see n_maxima().
+    std::vector<double> term_factors(unsigned int k) const;
   };
 
-  Constraint make_constraint(const std::string &name, const std::string &limit);
-  bool       is_relative_to_first() const;
+  void                add_quantity(Quantity quantity);
+  Quantity            make_constraint(const std::string &name, const std::string &limit);
+  bool                is_relative_to_first() const;
+  std::vector<double> values(const Quantity &quantity, const States &states) const;
+  void                predict(unsigned int                               i,
+                              const std::vector<LinearRows>             &of_cases,
+                              const std::vector<response::PressureRows> &rows,
+                              optimization::Evaluation                  &result) const;
+  std::vector<optimization::Maximum> maxima() const;
 
   ShapeProblem<dim>                      &problem;
-  std::vector<Constraint>                 constraints;
-  std::vector<sensitivity::Measured<dim>> measured; ///< responses of the constraints
+  std::vector<Quantity>                   quantities; ///< the objective, then the constraints
+  std::vector<sensitivity::Measured<dim>> measured;   ///< responses of the quantities
   WarmStartExtrapolation                  starts;
   States                                  of_first;
   std::optional<Analysis<dim>>            current;

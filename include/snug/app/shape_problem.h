@@ -41,15 +41,11 @@ public:
   /// Collective. @throws SolveError.
   States solve(const Design &design, const std::vector<qp::WarmStart> &starts = {});
 
-  /// Scale the objective 'worst' by the values of @p states in combined_objective(). Without a
-  /// call, each objective is scaled by its own values. Collective.
-  void scale_objective(const States &states);
+  /// Return the weight of a load case.
+  double weight(unsigned int load_case) const;
 
   /// Return the objective, combined of its values in @p states. Collective.
   optimization::Combined combined_objective(const States &states) const;
-
-  /// Return the objective, combined of its values in all load cases.
-  optimization::Combined combined(const std::vector<double> &values) const;
 
   /// The response called @p name. Collective. @throws InputError if the
   /// scene has nothing it could measure.
@@ -75,12 +71,6 @@ public:
   /// those of the scene, in its order
   std::vector<std::unique_ptr<response::Response<dim>>> responses;
 
-private:
-  double objective_scale = 0.; ///< 0: the scale of the values that are combined
-
-  double              scale(const std::vector<double> &values) const;
-  std::vector<double> objective_values(const States &states) const;
-  double              weight(unsigned int load_case) const;
 };
 } // namespace snug::app
 

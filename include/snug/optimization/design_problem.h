@@ -29,8 +29,16 @@ struct Evaluation
 /// Relation of a constraint's value to zero.
 enum class Relation
 {
-  equal,  ///< c(x) = 0
-  at_most ///< c(x) <= 0
+  equal,   ///< c(x) = 0
+  at_most, ///< c(x) <= 0
+  term     ///< c(x) is a term of a Maximum
+};
+
+/// The objective or a constraint contains the largest of several terms.
+struct Maximum
+{
+  int          of; ///< -1: the objective, else the index of the constraint
+  unsigned int begin, end; ///< constraints of the relation `term`
 };
 
 /// Return by how much a constraint is violated: |c| of an equality, max(0, c) of an inequality.
@@ -68,6 +76,11 @@ struct DesignProblem
    * nearly linear quantities. None: the functions are linear. Not collective.
    */
   std::function<Evaluation(const Evaluation &at, const std::vector<double> &dx)> predict;
+  /// Maxima that the objective and the constraints contain. Their values are the sums of smooth
+  /// functions and maxima; their gradients are those of the first of the largest terms.
+  std::vector<Maximum> maxima;
+  /// number of the last variables that enter all functions linearly
+  unsigned int n_linear = 0;
   /// predict() has the curvature of the objective; else it is learnt from gradients.
   bool predicts_objective = false;
 };

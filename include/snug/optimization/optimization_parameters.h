@@ -2,6 +2,7 @@
 #define snug_optimization_optimization_parameters_h
 
 #include <snug/base/values.h>
+#include <snug/optimization/combination.h>
 
 #include <string>
 #include <utility>
@@ -26,25 +27,12 @@ inline Names names(Algorithm)
           {"MMA", "method of moving asymptotes (Svanberg, NLopt), for inequality constraints"}};
 }
 
-enum class Combination
-{
-  sum,
-  worst
-};
-inline Names names(Combination)
-{
-  return {{"sum", "weighted sum"},
-          {"worst",
-           "smooth maximum of the weighted values. For n load cases it exceeds the maximum by less "
-           "than ln(n) percent of the maximum of the first design."}};
-}
-
 /// Entries of `subsection Optimization`.
 struct OptimizationParameters
 {
   Algorithm   algorithm = Algorithm::SLSQP;
   std::string objective = "potential energy"; ///< name of a response
-  Combination combine   = Combination::sum;   ///< of load cases
+  Combination combine;                        ///< of the objective in the load cases
   /// response, or "load case.response", and its limit, see read_limit()
   std::vector<std::pair<std::string, std::string>> constraints;
   unsigned int                                     maximum_evaluations = 200;

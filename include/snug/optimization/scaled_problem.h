@@ -92,6 +92,10 @@ public:
   const std::shared_ptr<const Point> &start() const { return start_point; }
   /// Number of variables.
   unsigned int size() const { return static_cast<unsigned int>(lengths.size()); }
+  /// Return the maximum of |d_i| over the variables that enter the functions nonlinearly.
+  double length(const std::vector<double> &d) const;
+  /// Return the number of variables that enter the functions nonlinearly; the others follow them.
+  unsigned int n_nonlinear() const { return size() - problem.n_linear; }
   /// The width of the bounds of variable @p i in its lengths.
   double bound_width(unsigned int i) const { return y_upper[i] - y_lower[i]; }
 

@@ -12,8 +12,10 @@ namespace snug::optimization {
 class SecantHessian
 {
 public:
-  /// B = 0.
-  explicit SecantHessian(unsigned int n) : rows(n, std::vector<double>(n, 0.)) {}
+  /// B = 0 for @p n_all variables. B remains zero for the variables behind the first @p n_nonlinear.
+  SecantHessian(unsigned int n_all, unsigned int n_nonlinear)
+    : n(n_all), rows(n_nonlinear, std::vector<double>(n_nonlinear, 0.))
+  {}
 
   /// Return whether a difference of gradients was measured since guess().
   bool is_measured() const { return measured; }
@@ -21,8 +23,8 @@ public:
   /// B = @p curvature I until a difference is measured.
   void guess(double curvature);
 
-  /// Make d'Bd / d'd at least @p curvature.
-  void raise(const std::vector<double> &d, double curvature);
+  /// Make d'Bd at least @p product.
+  void raise(const std::vector<double> &d, double product);
 
   /**
    * A step @p s changed the gradient by @p y. The first step after guess() begins with
@@ -31,16 +33,19 @@ public:
    * at most to 0.6: B began as stiff as the stiffest directions. Source: Al-Baali, Numerical
    * experience with a class of self-scaling quasi-Newton algorithms (1998).
    */
-  void update(const std::vector<double> &s, const std::vector<double> &y);
+  void update(std::vector<double> s, std::vector<double> y);
 
   /// B d.
   std::vector<double> times(const std::vector<double> &d) const;
 
 private:
+  const unsigned int               n;
   std::vector<std::vector<double>> rows;
   bool                             measured = false;
 
-  void add(double factor, const std::vector<double> &v);
+  /// Return the entries of nonlinear variables.
+  std::vector<double> nonlinear(const std::vector<double> &v) const;
+  void                add(double factor, const std::vector<double> &v);
 };
 } // namespace snug::optimization
 

@@ -138,16 +138,19 @@ std::vector<unsigned int> component_list(const std::string &words, unsigned int 
 /// Return "z = -0.012" as {"z", "-0.012"}; without '=', the second string is "".
 std::pair<std::string, std::string> split_displacement(const std::string &text);
 
-/// The response named by a constraint, and its load case. There is no load case if the response
-/// depends on the geometry, or if there is only one load case.
+/// The response named by a constraint, and its load case or the combination of its values in all
+/// load cases. There is neither if the response depends on the geometry, or if there is only one
+/// load case.
 struct ConstraintName
 {
-  std::string                 response;
-  std::optional<unsigned int> load_case;
+  std::string                              response;
+  std::optional<unsigned int>              load_case;
+  std::optional<optimization::Combination> combination;
 };
 
 /// Split a name such as "closing.compliance" into response and load case, if there is a load case
-/// closing. All other names are the response.
+/// closing, and a name such as "worst of peak" into combination and response. All other names are
+/// the response.
 ConstraintName constraint_name(const Scene &scene, const std::string &name);
 
 /// Return the response called @p name: a response of the scene, or a quantity with all entries at

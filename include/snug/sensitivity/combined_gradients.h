@@ -17,6 +17,19 @@ struct Measured
   unsigned int                   load_case;
 };
 
+/// Return the gradients of responses of load cases, in the order of @p measured. Responses of a load
+/// case share one block solve. The displacement derivatives of the load cases follow one another.
+/// Collective. @throws the same errors as gradients().
+template <int dim>
+Gradients<dim> gradients_of_cases(const LoadCases<dim>             &load_cases,
+                                  const std::vector<Measured<dim>> &measured);
+
+/// Return sum_c factors_c gradients_c of gradients from @p first on.
+template <int dim>
+Gradient<dim> weighted_sum(const std::vector<double>        &factors,
+                           const std::vector<Gradient<dim>> &gradients,
+                           std::size_t                       first);
+
 /**
  * Return the gradient of a combined objective J(J_1, .., J_n), where J_c is the
  * value of @p objective in load case c,

@@ -52,7 +52,6 @@ private:
   {
     problem.solver->pair(problem.positions(problem.shapes->start()));
     const auto states = problem.solve(design);
-    problem.scale_objective(states);
     const auto   factors = problem.combined_objective(states).factors;
     const double found   = problem.combined_objective(states).value;
     const auto   slopes  = sensitivity::combined_gradients(problem.load_cases(states, design, {}),

@@ -3,68 +3,71 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace {
 using namespace snug;
-using Numbers = std::vector<double>;
 using optimization::Combination;
+using Numbers = std::vector<double>;
 
-optimization::Combined
-combine(const Combination kind, const Numbers &values, const Numbers &weights)
+const Numbers values = {3., -1., 2.5}, weights = {1., 2., 1.5};
+
+double value(const std::string &text)
 {
-  return optimization::combined(kind, values, weights, 5.);
+  return optimization::combined(Combination::read(text), values, weights).value;
 }
 
-TEST(Combination, OneObjectiveKeepsItsValue)
+TEST(Combination, HasTheValueOfItsFormula)
 {
-  for (const auto kind : {Combination::sum, Combination::worst})
+  const double sum = 3. - 2. + 3.75, mean = sum / 4.5;
+  const double variance = (std::pow(3. - mean, 2) + 2. * std::pow(-1. - mean, 2) +
+                           1.5 * std::pow(2.5 - mean, 2)) /
+                          4.5;
+  EXPECT_NEAR(value("sum"), sum, 1e-14);
+  EXPECT_NEAR(value("mean"), mean, 1e-14);
+  EXPECT_EQ(value("worst"), 3.75);
+  EXPECT_EQ(value("range"), 3.75 + 2.);
+  EXPECT_NEAR(value("deviation"), std::sqrt(variance), 1e-14);
+  EXPECT_NEAR(value("mean + 2 deviation"), mean + 2. * std::sqrt(variance), 1e-14);
+}
+
+TEST(Combination, HasExactDerivatives)
+{
+  for (const auto *text : {"sum", "mean", "worst", "range", "deviation", "mean + 1.5 deviation"})
     {
-      const auto one = combine(kind, {-3.}, {1.});
-      EXPECT_EQ(one.value, -3.);
-      EXPECT_EQ(one.factors, Numbers{1.});
+      const auto   found = optimization::combined(Combination::read(text), values, weights);
+      const double step  = 1e-6;
+      for (unsigned int c = 0; c < values.size(); ++c)
+        {
+          auto forward = values, backward = values;
+          forward[c] += step;
+          backward[c] -= step;
+          const double slope = (optimization::combined(Combination::read(text), forward, weights).value -
+                                optimization::combined(Combination::read(text), backward, weights).value) /
+                               (2. * step);
+          EXPECT_NEAR(found.factors[c], slope, 1e-8) << text;
+        }
     }
 }
 
-TEST(Combination, SumIsWeighted)
+TEST(Combination, OfOneValue)
 {
-  const auto both = combine(Combination::sum, {-3., 2.}, {2., 0.5});
-  EXPECT_EQ(both.value, -5.);
-  EXPECT_EQ(both.factors, (Numbers{2., 0.5}));
+  for (const auto *text : {"mean", "worst"})
+    EXPECT_EQ(optimization::combined(Combination::read(text), {-3.}, {1.}).value, -3.);
+  for (const auto *text : {"range", "deviation"})
+    {
+      const auto found = optimization::combined(Combination::read(text), {-3.}, {1.});
+      EXPECT_EQ(found.value, 0.);
+      EXPECT_EQ(found.factors, Numbers{0.});
+    }
 }
 
-TEST(Combination, WorstIsASharpUpperBoundOfTheMaximum)
+TEST(Combination, IsReadFromTextAndPrinted)
 {
-  const double bound = 5. * std::log(3.) / 100.;
-  for (const Numbers &values :
-       {Numbers{-1., -2., -3.}, Numbers{1., 1., 1.}, Numbers{0.1, 0., -50.}, Numbers{1e5, 1e4, 0.}})
-    {
-      const double largest = *std::max_element(values.begin(), values.end());
-      const auto   worst   = combine(Combination::worst, values, {1., 1., 1.});
-      EXPECT_GE(worst.value, largest);
-      EXPECT_LE(worst.value, largest + bound * (1. + 1e-14));
-      double sum = 0.;
-      for (const double factor : worst.factors)
-        sum += factor;
-      EXPECT_NEAR(sum, 1., 1e-14);
-    }
-  EXPECT_NEAR(combine(Combination::worst, {1., 1., 1.}, {1., 1., 1.}).value, 1. + bound, 1e-14);
-}
-
-TEST(Combination, FactorsAreTheDerivatives)
-{
-  const Numbers values = {1., 1.02, 0.9}, weights = {1., 0.99, 1.1};
-  const double  step  = 1e-5;
-  const auto    worst = combine(Combination::worst, values, weights);
-  for (unsigned int c = 0; c < 3; ++c)
-    {
-      Numbers forward = values, backward = values;
-      forward[c] += step;
-      backward[c] -= step;
-      const double slope = (combine(Combination::worst, forward, weights).value -
-                            combine(Combination::worst, backward, weights).value) /
-                           (2. * step);
-      EXPECT_NEAR(worst.factors[c], slope, 1e-7);
-      EXPECT_GT(worst.factors[c], 0.05);
-    }
+  for (const std::string text :
+       {"sum", "mean", "worst", "range", "deviation", "2 deviation", "mean + 0.5 deviation"})
+    EXPECT_EQ(Combination::read(text).text(), text);
+  for (const auto *text : {"", "least", "mean +", "-1 deviation", "mean + deviation 2", "2 mean"})
+    EXPECT_THROW(Combination::read(text), std::invalid_argument) << text;
 }
 } // namespace

@@ -26,7 +26,7 @@ TEST(SecantHessian, HasTheCurvatureOfItsLastStep)
 {
   std::mt19937  random(11);
   const Vector  curvatures = {1e-2, 1., 3., 1e3};
-  SecantHessian B(4);
+  SecantHessian B(4, 4);
   EXPECT_FALSE(B.is_measured());
   B.guess(7.);
   EXPECT_EQ(B.times({1., 2., 0., 0.}), (Vector{7., 14., 0., 0.}));
@@ -45,7 +45,7 @@ TEST(SecantHessian, HasTheCurvatureOfItsLastStep)
 TEST(SecantHessian, StaysPositiveWhateverIsMeasured)
 {
   std::mt19937  random(5);
-  SecantHessian B(6);
+  SecantHessian B(6, 6);
   for (unsigned int k = 0; k < 60; ++k)
     {
       B.update(random_vector(random, 6), random_vector(random, 6));
@@ -59,18 +59,18 @@ TEST(SecantHessian, StaysPositiveWhateverIsMeasured)
 
 TEST(SecantHessian, IsRaisedAlongADirectionAlone)
 {
-  SecantHessian B(3);
+  SecantHessian B(3, 3);
   B.guess(2.);
-  B.raise({0., 3., 0.}, 5.);
+  B.raise({0., 3., 0.}, 45.);
   EXPECT_EQ(B.times({1., 1., 1.}), (Vector{2., 5., 2.}));
-  B.raise({0., 3., 0.}, 1.); // it has more
+  B.raise({0., 3., 0.}, 9.); // it has more
   EXPECT_EQ(B.times({1., 1., 1.}), (Vector{2., 5., 2.}));
 }
 
 /// Without a measured curvature in between the two that a step and a change saw, no scale is right.
 TEST(SecantHessian, FirstStepSetsTheScaleOfAllDirections)
 {
-  SecantHessian B(3);
+  SecantHessian B(3, 3);
   B.guess(1e-6);
   B.update({1., 0., 0.}, {100., 0., 0.});
   EXPECT_NEAR(B.times({1., 0., 0.})[0], 100., 1e-10);

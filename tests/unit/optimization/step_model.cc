@@ -41,7 +41,7 @@ TEST(StepModel, FindsTheLeastOfAQuadraticWithAnEqualityAndBounds)
       const auto     design_problem = knapsack.problem();
       ScaledProblem  problem(design_problem); // lengths 0.1
       const auto    &start = *problem.start();
-      SecantHessian  hessian(n);
+      SecantHessian  hessian(n, n);
       for (unsigned int i = 0; i < n; ++i)
         {
           Vector axis(n, 0.);
@@ -61,7 +61,7 @@ TEST(StepModel, FindsTheLeastOfAQuadraticWithAnEqualityAndBounds)
 
 TEST(StepModel, StaysInTheBoxAndMeetsWhatCanBeMet)
 {
-  const SecantHessian none(2);
+  const SecantHessian none(2, 2);
   // x + y = 0, and -x + y falls along (1, -1) until x - 2y = 1.5
   const auto      easy = linear(0., 1.5);
   ScaledProblem   problem(easy);
@@ -78,7 +78,7 @@ TEST(StepModel, StaysInTheBoxAndMeetsWhatCanBeMet)
 
 TEST(StepModel, MultipliersBalanceTheGradientInsideOfTheBox)
 {
-  const SecantHessian none(2);
+  const SecantHessian none(2, 2);
   const auto          easy = linear(0., 1.5);
   ScaledProblem       problem(easy);
   const StepModel     model(problem, *problem.start(), none);
