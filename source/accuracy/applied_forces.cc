@@ -46,7 +46,7 @@ dealii::Tensor<1, dim> AppliedForces<dim>::by_area(const Face                   
   if (given.traction)
     force += of.loads * dA * given.traction(reference);
   if (has_more(face, of))
-    force += dA * of.more->traction(point.area / dA);
+    force += dA * of.more->traction(point.area / dA, point.position);
   return force;
 }
 

@@ -1,4 +1,4 @@
-#include <snug/response/measured_place.h>
+#include <snug/response/measured_faces.h>
 #include <snug/response/quantities.h>
 
 #include <deal.II/base/mpi.h>
@@ -9,53 +9,6 @@ namespace snug::response {
 namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
-
-/// A face of this rank and the cell to which it belongs.
-struct MeasuredFace
-{
-  unsigned int index;           ///< index in BodyMesh::boundary_faces()
-  unsigned int subdomain, cell; ///< see Assembler::cells()
-  /// place of each node of the face in the cell
-  std::vector<unsigned int> places;
-};
-
-/// Return the faces of the boundary on this rank. Assemblers list only loaded faces. All other
-/// faces are accessed through their cell, where hanging nodes find the unknowns of their masters.
-template <int dim>
-std::vector<MeasuredFace> faces_of(const state::StateSolver<dim> &solver,
-                                   const ResponseParameters      &parameters)
-{
-  const auto &mesh     = solver.mesh();
-  const auto  boundary = find_boundary(solver, parameters);
-  // Each cell of the mesh has one (subdomain, cell), because it is in one subdomain of this rank.
-  std::vector<std::pair<unsigned int, unsigned int>> of_cell(mesh.cells().size());
-  for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
-    for (unsigned int i = 0; i < solver.assemblers()[s]->cells().size(); ++i)
-      of_cell[solver.assemblers()[s]->cells()[i]] = {s, i};
-  std::vector<MeasuredFace> faces;
-  for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
-    {
-      const auto &face = mesh.boundary_faces()[f];
-      if (std::make_pair(face.body, face.boundary) != boundary)
-        continue;
-      const auto &nodes = mesh.cells()[face.cell].nodes;
-      const auto [s, i] = of_cell[face.cell];
-      faces.push_back({f, s, i, {}});
-      for (const unsigned int node : face.nodes)
-        faces.back().places.push_back(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
-    }
-  return faces;
-}
-
-/// Return the values at the nodes of a face, taken from the values at the nodes of its cell.
-template <int dim>
-Nodes<dim> at_face(const std::vector<unsigned int> &places, const Nodes<dim> &cell)
-{
-  Nodes<dim> result;
-  for (const unsigned int place : places)
-    result.push_back(cell[place]);
-  return result;
-}
 
 /// Return the load on a face of @p n Gauss points with forces f(X) such that f . u = int u . e dA.
 template <int dim>
@@ -85,9 +38,9 @@ Average average(const state::StateSolver<dim>  &solver,
   for (const auto &face : faces_of(solver, parameters))
     {
       const auto &assembler = *solver.assemblers()[face.subdomain];
-      const auto  X = at_face<dim>(face.places, assembler.cell_field(face.cell, state.positions));
+      const auto  X         = at_face<dim>(face, assembler.cell_field(face.cell, state.positions));
       const auto  u =
-        at_face<dim>(face.places,
+        at_face<dim>(face,
                      assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
       Nodes<dim> f;
       solver.face_load().force(X, unit_load<dim>(parameters, X.size()), f);
@@ -163,9 +116,11 @@ public:
     const double area = average(solver, state, parameters).area;
     result.boundary   = find_boundary(solver, parameters);
     if (parameters.component == Component::normal)
-      result.traction = [area](const dealii::Tensor<1, dim> &normal) { return normal / area; };
+      result.traction = [area](const dealii::Tensor<1, dim> &normal,
+                               const dealii::Tensor<1, dim> &) { return normal / area; };
     else
-      result.traction = [e = unit_vector<dim>(parameters) / area](const dealii::Tensor<1, dim> &) {
+      result.traction = [e = unit_vector<dim>(parameters) / area](const dealii::Tensor<1, dim> &,
+                                                                  const dealii::Tensor<1, dim> &) {
         return e;
       };
     return result;
@@ -208,9 +163,9 @@ private:
         const auto &assembler = *solver.assemblers()[face.subdomain];
         const auto &load      = solver.face_load();
         const auto  cell_X    = assembler.cell_field(face.cell, state.positions);
-        const auto  X         = at_face<dim>(face.places, cell_X);
+        const auto  X         = at_face<dim>(face, cell_X);
         const auto  u =
-          at_face<dim>(face.places,
+          at_face<dim>(face,
                        assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
         const auto unit = unit_load<dim>(parameters, X.size());
         Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());

@@ -28,6 +28,17 @@ ChoiceTable<MakeResponse<dim>> body_responses()
     {"displacement",
      "component of the displacement at a point, or of its mean over a face [length]",
      displacement<dim>},
+    {"rotation",
+     "rotation of the rigid motion nearest to the displacement of a face, about the axis "
+     "'Component', positive from x to y about z [rad]. It is the compliance over the moment if "
+     "'Moment' of the face is the only load.",
+     rotation<dim>},
+    {"reaction",
+     "component in space of the force that supports apply to the nodes of a face [force]",
+     reaction<dim>},
+    {"reaction moment",
+     "moment of these forces about the axis 'Component' through 'Point' in space [force length]",
+     reaction_moment<dim>},
     {"von Mises norm",
      "p-norm of the von Mises stress over one body or all bodies, divided by the p-norm of 1 "
      "[force/length^2]",

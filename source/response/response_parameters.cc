@@ -11,12 +11,17 @@ void ResponseParameters::declare(Entries &entries)
   entries.add("Body", body, allowed("the name of a body"),
               "The body of the response. An empty name means all bodies, or for a displacement the "
               "only body that contains 'Point'.");
-  entries.add("Face", face, allowed("body.boundary"),
-              "The face over which a displacement is averaged.");
-  entries.add("Point", point, per_dimension(),
-              "The point of a displacement in the reference geometry. A design moves it with the "
-              "body. Units: length.");
-  entries.add("Component", component, "The component of a displacement or a contact force.");
+  entries.add(
+    "Face", face, allowed("body.boundary"),
+    "The face over which a displacement is averaged, whose rotation is measured, or whose "
+    "supports are.");
+  entries.add(
+    "Point", point, per_dimension(),
+    "The point of a displacement in the reference geometry, which a design moves with "
+    "the body; or a point of the axis of a moment, by default the origin. Units: length.");
+  entries.add("Component", component,
+              "The component of a displacement or a force, or the axis of a rotation or a moment, "
+              "which is z in 2D.");
   entries.add("Pair", pair, allowed("slave: master"),
               "The contact pair of the response. An empty name means all pairs.");
   entries.add(
@@ -41,7 +46,9 @@ void ResponseParameters::check(const SectionCheck &section) const
   auto read = make_response<3>(*this)->entries();
   read.push_back("Quantity");
   section.require_read(*this, read, "must be left out for Quantity = " + quantity);
-  if (reads("Point"))
+  if (reads("Point") && !reads("Body"))
+    section.require(!face.empty(), "Face", face, "must be given for Quantity = " + quantity);
+  else if (reads("Point"))
     {
       section.require(point.empty() != face.empty(), "Point", to_text(point),
                       "either 'Point' or 'Face' must be given");
@@ -49,7 +56,8 @@ void ResponseParameters::check(const SectionCheck &section) const
       section.require(point.empty() || component != Component::normal, "Component",
                       to_text(component), "must be x, y or z with 'Point'");
     }
-  section.require(component != Component::z || section.dimension == 3, "Component",
+  const bool turns = quantity == "rotation" || quantity == "reaction moment";
+  section.require(component != Component::z || section.dimension == 3 || turns, "Component",
                   to_text(component), "must be normal, x or y for Dimension = 2");
 }
 } // namespace snug::response

@@ -73,7 +73,7 @@ Parameters require_response(const Scene        &scene,
   section.require(response.has_value(), entry, value,
                   "'" + name + "' is not a response; the responses are " + to_text(known) +
                     did_you_mean(name, known));
-  section.require(!response->name.empty() || !response->reads("Point"), entry, value,
+  section.require(!response->name.empty() || !response->reads("Face"), entry, value,
                   "'" + name +
                     "' needs a subsection Response with 'Point' or 'Face', and a name "
                     "in 'Responses'");

@@ -49,6 +49,23 @@ template <int dim>
 std::unique_ptr<Response<dim>> displacement(const ResponseParameters &parameters);
 
 /**
+ * Return the rotation of a face about an axis e [rad]: J = e . I^-1 int r x u dA with the distance
+ * r from the centroid and the inertia I of the face. This is the rotation of the rigid motion that
+ * is nearest to u over the face, positive from x to y about z, and the conjugate of the entry
+ * Moment: if a moment on the face is the only load, J is the compliance over the moment.
+ */
+template <int dim>
+std::unique_ptr<Response<dim>> rotation(const ResponseParameters &parameters);
+
+/// Return a component of the force that supports apply to the nodes of a face, in space [force].
+template <int dim>
+std::unique_ptr<Response<dim>> reaction(const ResponseParameters &parameters);
+
+/// Return the moment of these forces about an axis through a point, both in space [force length].
+template <int dim>
+std::unique_ptr<Response<dim>> reaction_moment(const ResponseParameters &parameters);
+
+/**
  * Return the response J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over one
  * body or all bodies: the p-norm of the von Mises stress, divided by the p-norm of 1. J grows with
  * p to the maximum stress at the Gauss points.

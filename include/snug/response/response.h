@@ -37,8 +37,11 @@ template <int dim>
 struct FieldDerivative
 {
   double stiffness = 0., load = 0.;
-  /// traction as a function of the unit outward normal of one boundary [response / length^dim]
-  std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &normal)> traction = {};
+  /// traction as a function of the unit outward normal and the point of one boundary
+  /// [response / length^dim]
+  std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &normal,
+                                       const dealii::Tensor<1, dim> &x)>
+                                        traction = {};
   std::pair<unsigned int, unsigned int> boundary = {0, 0}; ///< (body, boundary) of the traction
   /// stress as a function of the stress of u at a point, in the components of the strain of v
   /// [response / length^3]

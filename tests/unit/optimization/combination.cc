@@ -20,9 +20,8 @@ double value(const std::string &text)
 TEST(Combination, HasTheValueOfItsFormula)
 {
   const double sum = 3. - 2. + 3.75, mean = sum / 4.5;
-  const double variance = (std::pow(3. - mean, 2) + 2. * std::pow(-1. - mean, 2) +
-                           1.5 * std::pow(2.5 - mean, 2)) /
-                          4.5;
+  const double variance =
+    (std::pow(3. - mean, 2) + 2. * std::pow(-1. - mean, 2) + 1.5 * std::pow(2.5 - mean, 2)) / 4.5;
   EXPECT_NEAR(value("sum"), sum, 1e-14);
   EXPECT_NEAR(value("mean"), mean, 1e-14);
   EXPECT_EQ(value("worst"), 3.75);
@@ -42,9 +41,10 @@ TEST(Combination, HasExactDerivatives)
           auto forward = values, backward = values;
           forward[c] += step;
           backward[c] -= step;
-          const double slope = (optimization::combined(Combination::read(text), forward, weights).value -
-                                optimization::combined(Combination::read(text), backward, weights).value) /
-                               (2. * step);
+          const double slope =
+            (optimization::combined(Combination::read(text), forward, weights).value -
+             optimization::combined(Combination::read(text), backward, weights).value) /
+            (2. * step);
           EXPECT_NEAR(found.factors[c], slope, 1e-8) << text;
         }
     }
