@@ -125,6 +125,7 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &design)
   const auto               found = values(states);
   evaluation.objective           = found.objective;
   evaluation.constraints         = found.constraints;
+  evaluation.reported            = problem.reported_values(states);
   for (const auto &state : states)
     {
       evaluation.active_contacts += state.active_contacts;

@@ -37,7 +37,7 @@ SearchRecord<dim>::SearchRecord(Results<dim>            &results,
                                 const scene::Scene      &scene,
                                 const bool               restart)
   : results(results)
-  , history(results.path("history.csv"), problem.shapes->n_variables())
+  , history(results.path("history.csv"), problem.shapes->n_variables(), problem.value_names())
   , journal({scene.output_directory, fingerprint(scene), restart, problem.context.communicator(),
              [&context = problem.context](const std::string &line) {
                context.out() << line << std::endl;
@@ -96,6 +96,7 @@ void Search<dim>::report(const Iteration &iteration, const unsigned int before)
   line.scaled_jacobian      = iteration.evaluation.least_scaled_jacobian;
   line.seconds              = iteration.evaluation.seconds;
   line.design               = iteration.x;
+  line.values               = iteration.evaluation.reported;
   log(io::log_line(line));
   throw_collectively(problem.context.communicator(), [&]() {
     if (problem.context.rank() == 0)

@@ -78,6 +78,35 @@ optimization::Combined ShapeProblem<dim>::combined_objective(const States &state
 }
 
 template <int dim>
+std::vector<std::string> ShapeProblem<dim>::value_names() const
+{
+  std::vector<std::string> names;
+  for (unsigned int c = 0; c < n_load_cases(); ++c)
+    {
+      const auto prefix = n_load_cases() == 1 ? "" : scene.load_cases[c].name + ".";
+      names.push_back(prefix + scene.optimization.objective);
+      for (const auto &response : scene.responses)
+        if (response.name != scene.optimization.objective)
+          names.push_back(prefix + response.name);
+    }
+  return names;
+}
+
+template <int dim>
+std::vector<double> ShapeProblem<dim>::reported_values(const States &states) const
+{
+  std::vector<double> values;
+  for (const auto &state : states)
+    {
+      values.push_back(objective->value(*solver, state));
+      for (unsigned int i = 0; i < responses.size(); ++i)
+        if (scene.responses[i].name != scene.optimization.objective)
+          values.push_back(responses[i]->value(*solver, state));
+    }
+  return values;
+}
+
+template <int dim>
 double ShapeProblem<dim>::weight(const unsigned int load_case) const
 {
   return scene.load_cases.empty() ? 1. : scene.load_cases[load_case].weight;

@@ -23,26 +23,33 @@ std::string log_line(const HistoryLine &line)
   return text;
 }
 
-History::History(const std::string &path, unsigned int n_variables)
+History::History(const std::string              &path,
+                 unsigned int                    n_variables,
+                 const std::vector<std::string> &columns)
   : path(path)
   , text("iteration,objective,constraint_violation,projected_gradient,"
          "active_contacts,f_mults,scaled_jacobian,seconds")
   , n_variables(n_variables)
+  , n_values(columns.size())
 {
   for (unsigned int i = 0; i < n_variables; ++i)
     text += ",design_" + std::to_string(i);
+  for (const auto &column : columns)
+    text += ',' + column;
   text += '\n';
 }
 
 void History::add(const HistoryLine &line)
 {
   AssertDimension(line.design.size(), n_variables);
+  AssertDimension(line.values.size(), n_values);
   text += std::to_string(line.iteration) + ',' + exact(line.objective) + ',' +
           exact(line.constraint_violation) + ',' + exact(line.projected_gradient) + ',' +
           std::to_string(line.active_contacts) + ',' + std::to_string(line.f_mults) + ',' +
           exact(line.scaled_jacobian) + ',' + exact(line.seconds);
-  for (const double value : line.design)
-    text += ',' + exact(value);
+  for (const auto *numbers : {&line.design, &line.values})
+    for (const double value : *numbers)
+      text += ',' + exact(value);
   text += '\n';
   // Write all lines again: a file is replaced as a whole, so a run that is stopped leaves a
   // complete file.

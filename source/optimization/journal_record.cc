@@ -98,6 +98,8 @@ bool parse_line(const std::string &line, JournalRecord &record)
     value.constraints = numbers;
   else if (name == "jacobian")
     value.jacobian.push_back(numbers);
+  else if (name == "reported")
+    value.reported = numbers;
   else if (name == "linearization")
     value.linearization = numbers;
   else if (name == "notes" && numbers.size() == 4)
@@ -190,6 +192,8 @@ std::string journal_text(const JournalRecord &record, const unsigned int index)
                 numbers_line("constraints", value.constraints);
         for (const auto &row : value.jacobian)
           text += numbers_line("jacobian", row);
+        if (!value.reported.empty())
+          text += numbers_line("reported", value.reported);
         if (!value.linearization.empty())
           text += numbers_line("linearization", value.linearization);
         text += numbers_line("notes", {double(value.active_contacts), double(value.f_mults),

@@ -41,6 +41,13 @@ public:
   /// Collective. @throws SolveError.
   States solve(const Design &design, const std::vector<qp::WarmStart> &starts = {});
 
+  /// Return the names of reported_values(): the objective and the responses of the scene by their
+  /// names, after the name of the load case and a dot if there are several load cases.
+  std::vector<std::string> value_names() const;
+
+  /// Return the values of the objective and of the responses in each load case. Collective.
+  std::vector<double> reported_values(const States &states) const;
+
   /// Return the weight of a load case.
   double weight(unsigned int load_case) const;
 

@@ -17,6 +17,7 @@ struct HistoryLine
   double              scaled_jacobian      = 0.; ///< minimum over cells
   double              seconds              = 0.; ///< since the start of the run
   std::vector<double> design;                    ///< [length]
+  std::vector<double> values;                    ///< of the columns that History was given
 };
 
 /// Return the names of the columns of log_line().
@@ -28,14 +29,16 @@ std::string log_line(const HistoryLine &line);
 /**
  * This class writes the file history.csv. It has one line per design iteration with the columns
  * iteration, objective, constraint_violation, projected_gradient, active_contacts, f_mults,
- * scaled_jacobian, seconds, design_0, design_1, .. and 17 significant digits. The file on disk is
- * complete after every add(). The class is for one rank.
+ * scaled_jacobian, seconds, design_0, design_1, .., further columns with names of the caller, and
+ * 17 significant digits. The file on disk is complete after every add(). The class is for one rank.
  */
 class History
 {
 public:
-  /// Construct the history. The file is not written before the first add().
-  History(const std::string &path, unsigned int n_variables);
+  /// Construct the history with further @p columns. The file is not written before the first add().
+  History(const std::string              &path,
+          unsigned int                    n_variables,
+          const std::vector<std::string> &columns);
 
   /// Add a line and write the file. @throws std::runtime_error if the file cannot be written.
   void add(const HistoryLine &line);
@@ -44,6 +47,7 @@ private:
   std::string  path;
   std::string  text;
   unsigned int n_variables;
+  std::size_t  n_values;
 };
 } // namespace snug::io
 

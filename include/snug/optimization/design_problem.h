@@ -19,6 +19,7 @@ struct Evaluation
   std::vector<double> linearization;
   /// @name For the history; no optimizer looks at them
   /// @{
+  std::vector<double> reported; ///< further values of the design
   unsigned int  active_contacts       = 0;
   unsigned long f_mults               = 0;
   double        least_scaled_jacobian = 0.; ///< of all cells

@@ -23,6 +23,7 @@ io::HistoryLine line_of_history(unsigned int iteration)
   line.scaled_jacobian      = 2. / 3.;
   line.seconds              = 12.345;
   line.design               = {0.1, -0.2 / 3.};
+  line.values               = {7. / 3.};
   return line;
 }
 
@@ -31,7 +32,7 @@ TEST(History, ReadsBackBitForBit)
   const test::ScratchDirectory scratch;
   if (!scratch.is_first())
     return;
-  io::History history(scratch.file("history.csv"), 2);
+  io::History history(scratch.file("history.csv"), 2, {"tilted.peak"});
   for (unsigned int i = 0; i < 3; ++i)
     {
       history.add(line_of_history(i));
@@ -40,7 +41,7 @@ TEST(History, ReadsBackBitForBit)
       EXPECT_EQ(table[0],
                 (std::vector<std::string>{"iteration", "objective", "constraint_violation",
                                           "projected_gradient", "active_contacts", "f_mults",
-                                          "scaled_jacobian", "seconds", "design_0", "design_1"}));
+                                          "scaled_jacobian", "seconds", "design_0", "design_1", "tilted.peak"}));
       const auto &fields = table.back();
       const auto  line   = line_of_history(i);
       ASSERT_EQ(fields.size(), table[0].size());
@@ -54,6 +55,7 @@ TEST(History, ReadsBackBitForBit)
       EXPECT_EQ(std::stod(fields[7]), line.seconds);
       EXPECT_EQ(std::stod(fields[8]), line.design[0]);
       EXPECT_EQ(std::stod(fields[9]), line.design[1]);
+      EXPECT_EQ(std::stod(fields[10]), line.values[0]);
     }
 }
 
