@@ -77,6 +77,9 @@ std::map<std::string, unsigned int> numbers_of_cases(const std::vector<Statement
                    "must be an integer between 1 and " + to_text(most_cases));
         result[statement.section.substr(section_prefix.size())] = n;
       }
+  // One case is the load case itself.
+  for (auto of = result.begin(); of != result.end();)
+    of = of->second == 1 ? result.erase(of) : std::next(of);
   return result;
 }
 } // namespace

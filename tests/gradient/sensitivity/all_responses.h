@@ -33,9 +33,18 @@ std::map<std::string, response::ResponseParameters> all_responses()
   result["normal on a face"].face     = "foundation.right";
   result["axial on a face"].face      = "foundation.top";
   result["axial on a face"].component = axis;
-  result["volume of a body"]          = result.at("volume");
-  result["volume of a body"].body     = "foundation";
-  result.at("von Mises norm").body    = "foundation";
+  for (const auto *of_face : {"rotation", "reaction", "reaction moment"})
+    result.at(of_face).face = "foundation.bottom";
+  result.at("rotation").face      = "foundation.right";
+  result.at("rotation").component = dim == 2 ? response::Component::z : response::Component::y;
+  result.at("reaction").component = response::Component::x;
+  result.at("reaction moment").component = response::Component::z;
+  result.at("reaction moment").point     = {0.2, 0.3};
+  if (dim == 3)
+    result.at("reaction moment").point = {0.2, 0.3, 0.1};
+  result["volume of a body"]       = result.at("volume");
+  result["volume of a body"].body  = "foundation";
+  result.at("von Mises norm").body = "foundation";
   return result;
 }
 } // namespace snug::test

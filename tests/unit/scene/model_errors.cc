@@ -21,11 +21,11 @@ TEST(Errors, LoadCases)
   // what a body holds already
   expect_error({own + "Displacement", "punch.left: x = 1", "held twice"}, two);
   expect_error({"Optimization/Constraints", "strain energy: 1",
-                "its load case: 'closing.strain energy'"},
+                "its load case or a combination: 'closing.strain energy' or 'worst of strain energy'"},
                two);
   expect_error({"Optimization/Constraints", "closing.beauty: 1", "'beauty' is not a response"},
                two);
-  expect_error({"Optimization/Combine", "best", "sum, worst"}, two);
+  expect_error({"Optimization/Combine", "best", "sum, mean, worst, range"}, two);
   EXPECT_EQ(error_of({"Load cases=closing, opening",
                       "Optimization/Constraints=closing.strain energy: "
                       "initial, volume: initial"}),
