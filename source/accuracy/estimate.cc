@@ -262,16 +262,15 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
                 const sensitivity::Solves                           solves,
                 const double                                        adjoint_tolerance)
 {
-  const unsigned int  n = responses.size();
   const Adjoints<dim> adjoints(solver, state, responses, solves, adjoint_tolerance);
-  std::vector<response::FieldDerivative<dim>> derivatives(n);
+  std::vector<response::FieldDerivative<dim>> derivatives(responses.size());
   std::vector<LoadedDisplacement<dim>>        all        = {loaded(solver, state)};
   auto                                        continuous = state.u;
   state::make_continuous(solver.feti(state), &solver.feti(state).g(), continuous);
   std::vector<LoadedDisplacement<dim>> jumps = {
     unloaded<dim>(jump(solver, state.u, continuous, 0), state.contact.size())};
-  std::vector<unsigned int> place(n, 0); // in `all`
-  for (unsigned int j = 0; j < n; ++j)
+  std::vector<unsigned int> place(responses.size(), 0); // in `all`
+  for (unsigned int j = 0; j < responses.size(); ++j)
     {
       if (responses[j]->needs_solution())
         derivatives[j] = responses[j]->field_derivative(solver, state);
@@ -292,7 +291,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
   const LoadResidual<dim>    loads(solver.mesh(), solver.model().load_cases[state.load_case],
                                    state.positions, Sampling::measure);
   std::vector<RoughPressure> rough;
-  for (unsigned int j = 0; j < n; ++j)
+  for (unsigned int j = 0; j < responses.size(); ++j)
     {
       const bool   is_geometry = !responses[j]->needs_solution();
       const double sign        = is_geometry ? 0. : responses[j]->stationary() ? -1. : 1.;

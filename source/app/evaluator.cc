@@ -151,7 +151,7 @@ Analysis<dim> &Evaluator<dim>::analysis(const Design &design)
       current->gradients =
         sensitivity::gradients_of_cases(problem.load_cases(current->states, design, parameters),
                                         measured);
-      auto                                    &of_cases = current->gradients.of_response;
+      auto                                   &of_cases = current->gradients.of_response;
       std::vector<sensitivity::Gradient<dim>> combined, terms;
       for (const Quantity &quantity : quantities)
         {
@@ -212,8 +212,8 @@ DesignValues Evaluator<dim>::values(const States &states) const
       result.constraints.push_back(c);
       const double size =
         quantity.side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
-      result.violation = std::max(result.violation,
-                                  size / (quantity.target == 0. ? 1. : std::abs(quantity.target)));
+      result.violation =
+        std::max(result.violation, size / (quantity.target == 0. ? 1. : std::abs(quantity.target)));
     }
   result.constraints.insert(result.constraints.end(), terms.begin(), terms.end());
   return result;

@@ -210,21 +210,21 @@ void Evaluator<dim>::predict(const unsigned int                         i,
         for (unsigned int c = 0; c < factors.size(); ++c)
           {
             std::vector<double> factor(factors.size(), 0.);
-            factor[c]                               = factors[c];
+            factor[c]                             = factors[c];
             result.constraints[maximum.begin + c] = factors[c] * values[c];
             result.jacobian[maximum.begin + c]    = gradient(factor);
           }
       }
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                    \
-  template bool Evaluator<dim>::measures_contact(const response::Response<dim> &) const;         \
-  template bool Evaluator<dim>::is_predicted() const;                                            \
-  template std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &) const;  \
-  template void Evaluator<dim>::predict(unsigned int, const std::vector<LinearRows> &,           \
-                                        const std::vector<response::PressureRows> &,             \
-                                        Evaluation &) const;                                     \
-  template Evaluation Evaluator<dim>::predicted(const Evaluation &, const std::vector<double> &) \
+#define SNUG_INSTANTIATE(dim)                                                                      \
+  template bool Evaluator<dim>::measures_contact(const response::Response<dim> &) const;           \
+  template bool Evaluator<dim>::is_predicted() const;                                              \
+  template std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &) const;    \
+  template void Evaluator<dim>::predict(unsigned int, const std::vector<LinearRows> &,             \
+                                        const std::vector<response::PressureRows> &, Evaluation &) \
+    const;                                                                                         \
+  template Evaluation Evaluator<dim>::predicted(const Evaluation &, const std::vector<double> &)   \
     const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

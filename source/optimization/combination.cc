@@ -38,7 +38,7 @@ void add_maximum(const double sign, const Numbers &values, const Numbers &weight
 
 Combined deviation(const Combination &combination, const Numbers &values, const Numbers &p)
 {
-  const double mean = weighted_sum(values, p).value;
+  const double mean     = weighted_sum(values, p).value;
   double       variance = 0.;
   for (std::size_t c = 0; c < values.size(); ++c)
     variance += p[c] * (values[c] - mean) * (values[c] - mean);

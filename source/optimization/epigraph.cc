@@ -38,7 +38,7 @@ Epigraph::Epigraph(const DesignProblem &the_problem) : problem(the_problem), smo
     smooth.lengths.push_back((problem.upper[i] - problem.lower[i]) / 10.);
   for (const Maximum &maximum : problem.maxima)
     {
-      const double tau = first->constraints[largest(*first, maximum)];
+      const double tau  = first->constraints[largest(*first, maximum)];
       double       size = 0.;
       for (unsigned int j = maximum.begin; j < maximum.end; ++j)
         size = std::max(size, std::abs(first->constraints[j]));
@@ -52,8 +52,7 @@ Epigraph::Epigraph(const DesignProblem &the_problem) : problem(the_problem), smo
                   smooth.constraint_scales.begin() + maximum.end, size);
     }
   smooth.maxima.clear();
-  std::replace(smooth.relations.begin(), smooth.relations.end(), Relation::term,
-               Relation::at_most);
+  std::replace(smooth.relations.begin(), smooth.relations.end(), Relation::term, Relation::at_most);
   smooth.n_linear = static_cast<unsigned int>(problem.maxima.size());
   smooth.evaluate = [this](const Vector &x) { return to_smooth(*evaluated(design(x)), tau(x)); };
   if (problem.differentiate)

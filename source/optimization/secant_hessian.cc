@@ -30,8 +30,8 @@ void SecantHessian::raise(const std::vector<double> &d, const double product)
 
 void SecantHessian::update(std::vector<double> s, std::vector<double> y)
 {
-  s = nonlinear(s);
-  y = nonlinear(y);
+  s               = nonlinear(s);
+  y               = nonlinear(y);
   const double ys = dot(y, s);
   if (!measured && ys > 0.)
     guess(norm(y) / norm(s));

@@ -40,8 +40,7 @@ Average average(const state::StateSolver<dim>  &solver,
       const auto &assembler = *solver.assemblers()[face.subdomain];
       const auto  X         = at_face<dim>(face, assembler.cell_field(face.cell, state.positions));
       const auto  u =
-        at_face<dim>(face,
-                     assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
+        at_face<dim>(face, assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
       Nodes<dim> f;
       solver.face_load().force(X, unit_load<dim>(parameters, X.size()), f);
       for (unsigned int a = 0; a < u.size(); ++a)
@@ -165,8 +164,7 @@ private:
         const auto  cell_X    = assembler.cell_field(face.cell, state.positions);
         const auto  X         = at_face<dim>(face, cell_X);
         const auto  u =
-          at_face<dim>(face,
-                       assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
+          at_face<dim>(face, assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
         const auto unit = unit_load<dim>(parameters, X.size());
         Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
         load.force(X, unit, f);

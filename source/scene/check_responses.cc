@@ -105,7 +105,8 @@ void check_responses(const Scene &scene, const Origins &origins)
     {
       const auto of       = constraint_name(scene, name);
       const auto response = require_response(scene, section, "Constraints", value, of.response);
-      section.require(!of.combination || of.combination->n_maxima() == 0 || trim(limit).rfind("<=", 0) == 0,
+      section.require(!of.combination || of.combination->n_maxima() == 0 ||
+                        trim(limit).rfind("<=", 0) == 0,
                       "Constraints", value, "the limit of '" + name + "' must be one with <=");
       section.require(scene.load_cases.size() < 2 || of.load_case || of.combination ||
                         !response::make_response<3>(response)->needs_solution(),

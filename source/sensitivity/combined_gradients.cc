@@ -101,17 +101,17 @@ OneSided combined_one_sided_gradients(const LoadCases<dim>          &load_cases,
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                           \
-  template Gradients<dim> gradients_of_cases(const LoadCases<dim> &,                    \
-                                             const std::vector<Measured<dim>> &);       \
-  template Gradient<dim> weighted_sum(const std::vector<double> &,                      \
-                                      const std::vector<Gradient<dim>> &, std::size_t); \
-  template Gradients<dim> combined_gradients(const LoadCases<dim> &,                    \
-                                             const response::Response<dim> &,           \
-                                             const std::vector<double> &,               \
-                                             const std::vector<Measured<dim>> &);       \
-  template OneSided       combined_one_sided_gradients(const LoadCases<dim> &,          \
-                                                       const response::Response<dim> &, \
+#define SNUG_INSTANTIATE(dim)                                                            \
+  template Gradients<dim> gradients_of_cases(const LoadCases<dim> &,                     \
+                                             const std::vector<Measured<dim>> &);        \
+  template Gradient<dim>  weighted_sum(const std::vector<double> &,                      \
+                                       const std::vector<Gradient<dim>> &, std::size_t); \
+  template Gradients<dim> combined_gradients(const LoadCases<dim> &,                     \
+                                             const response::Response<dim> &,            \
+                                             const std::vector<double> &,                \
+                                             const std::vector<Measured<dim>> &);        \
+  template OneSided       combined_one_sided_gradients(const LoadCases<dim> &,           \
+                                                       const response::Response<dim> &,  \
                                                        const std::vector<double> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

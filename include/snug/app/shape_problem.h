@@ -77,7 +77,6 @@ public:
   std::unique_ptr<response::Response<dim>> objective;
   /// those of the scene, in its order
   std::vector<std::unique_ptr<response::Response<dim>>> responses;
-
 };
 } // namespace snug::app
 

@@ -20,10 +20,10 @@ struct Evaluation
   /// @name For the history; no optimizer looks at them
   /// @{
   std::vector<double> reported; ///< further values of the design
-  unsigned int  active_contacts       = 0;
-  unsigned long f_mults               = 0;
-  double        least_scaled_jacobian = 0.; ///< of all cells
-  double        seconds               = 0.; ///< since the run began
+  unsigned int        active_contacts       = 0;
+  unsigned long       f_mults               = 0;
+  double              least_scaled_jacobian = 0.; ///< of all cells
+  double              seconds               = 0.; ///< since the run began
   /// @}
 };
 
@@ -38,7 +38,7 @@ enum class Relation
 /// The objective or a constraint contains the largest of several terms.
 struct Maximum
 {
-  int          of; ///< -1: the objective, else the index of the constraint
+  int          of;         ///< -1: the objective, else the index of the constraint
   unsigned int begin, end; ///< constraints of the relation `term`
 };
 

@@ -39,10 +39,10 @@ private:
   Evaluation          to_smooth(const Evaluation &at, const std::vector<double> &tau) const;
   Evaluation          from_smooth(const Evaluation &at) const;
 
-  const DesignProblem                                    &problem;
-  DesignProblem                                           smooth;
-  std::deque<std::pair<std::vector<double>, Values>>      recent; ///< the newest first
-  double                                                  objective_initial;
+  const DesignProblem                               &problem;
+  DesignProblem                                      smooth;
+  std::deque<std::pair<std::vector<double>, Values>> recent; ///< the newest first
+  double                                             objective_initial;
 };
 } // namespace snug::optimization
 

@@ -12,7 +12,8 @@ namespace snug::optimization {
 class SecantHessian
 {
 public:
-  /// B = 0 for @p n_all variables. B remains zero for the variables behind the first @p n_nonlinear.
+  /// B = 0 for @p n_all variables. B remains zero for the variables behind the first @p
+  /// n_nonlinear.
   SecantHessian(unsigned int n_all, unsigned int n_nonlinear)
     : n(n_all), rows(n_nonlinear, std::vector<double>(n_nonlinear, 0.))
   {}

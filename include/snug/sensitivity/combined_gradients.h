@@ -17,9 +17,9 @@ struct Measured
   unsigned int                   load_case;
 };
 
-/// Return the gradients of responses of load cases, in the order of @p measured. Responses of a load
-/// case share one block solve. The displacement derivatives of the load cases follow one another.
-/// Collective. @throws the same errors as gradients().
+/// Return the gradients of responses of load cases, in the order of @p measured. Responses of a
+/// load case share one block solve. The displacement derivatives of the load cases follow one
+/// another. Collective. @throws the same errors as gradients().
 template <int dim>
 Gradients<dim> gradients_of_cases(const LoadCases<dim>             &load_cases,
                                   const std::vector<Measured<dim>> &measured);

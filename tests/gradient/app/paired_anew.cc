@@ -51,7 +51,7 @@ private:
   void check(const std::vector<double> &design)
   {
     problem.solver->pair(problem.positions(problem.shapes->start()));
-    const auto states = problem.solve(design);
+    const auto   states  = problem.solve(design);
     const auto   factors = problem.combined_objective(states).factors;
     const double found   = problem.combined_objective(states).value;
     const auto   slopes  = sensitivity::combined_gradients(problem.load_cases(states, design, {}),

@@ -41,7 +41,8 @@ TEST(History, ReadsBackBitForBit)
       EXPECT_EQ(table[0],
                 (std::vector<std::string>{"iteration", "objective", "constraint_violation",
                                           "projected_gradient", "active_contacts", "f_mults",
-                                          "scaled_jacobian", "seconds", "design_0", "design_1", "tilted.peak"}));
+                                          "scaled_jacobian", "seconds", "design_0", "design_1",
+                                          "tilted.peak"}));
       const auto &fields = table.back();
       const auto  line   = line_of_history(i);
       ASSERT_EQ(fields.size(), table[0].size());

@@ -20,9 +20,10 @@ TEST(Errors, LoadCases)
   expect_error({own + "Traction", "punch.top: 1 2", "3 components"}, two);
   // what a body holds already
   expect_error({own + "Displacement", "punch.left: x = 1", "held twice"}, two);
-  expect_error({"Optimization/Constraints", "strain energy: 1",
-                "its load case or a combination: 'closing.strain energy' or 'worst of strain energy'"},
-               two);
+  expect_error(
+    {"Optimization/Constraints", "strain energy: 1",
+     "its load case or a combination: 'closing.strain energy' or 'worst of strain energy'"},
+    two);
   expect_error({"Optimization/Constraints", "closing.beauty: 1", "'beauty' is not a response"},
                two);
   expect_error({"Optimization/Combine", "best", "sum, mean, worst, range"}, two);
