@@ -69,13 +69,18 @@ void LoadCaseParameters::declare(Entries &entries)
               "'punch.top: 0 0 -100*(i+1)'.");
   entries.add(
     "Position", access(positions, ';'),
-    allowed("a list 'body or obstacle: motion, motion, ...; ...' of the motions 'rotate axis "
-            "degrees', 'rotate axis degrees about x y z' and 'shift x y z'"),
-    "The motions, one after the other, that bring bodies and obstacles to their places in this "
-    "load "
-    "case: 'wheel: rotate z 12 about 100 0; pinion: rotate z -18'. The axis is x, y or z, in 2D z; "
-    "numbers contain no blanks. Supports, loads, prescribed displacements and displacements turn "
-    "with their body. Units: degrees, length.");
+    with_meanings(
+      allowed("a list 'body or obstacle: motion, motion, ...; ...'"),
+      {{"wheel: rotate z 12 about 100 0",
+        "rotation by 12 degrees about the axis z through a point, by default the origin; "
+        "in 2D the axis is z"},
+       {"wheel: rotate z 12, shift 0 1", "rotation, then translation"},
+       {"wheel: rotate z 2*i; pinion: rotate z -3*i",
+        "motions of two bodies, with the case number i of 'Cases'; numbers contain no "
+        "blanks"}}),
+    "The motions that bring bodies and obstacles to their places in this load case. Supports, "
+    "loads, prescribed displacements and displacements turn with their body. Units: degrees, "
+    "length.");
   entries.add(
     "Loads in space", loads_in_space,
     "Whether forces, moments, tractions, body forces and gravity keep their directions in "
