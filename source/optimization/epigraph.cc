@@ -31,7 +31,9 @@ Epigraph::Epigraph(const DesignProblem &the_problem) : problem(the_problem), smo
   Vector start;
   for (unsigned int i = 0; i < problem.start.size(); ++i)
     start.push_back(std::clamp(problem.start[i], problem.lower[i], problem.upper[i]));
-  const auto first  = evaluated(start);
+  const auto first = evaluated(start);
+  if (first->gradient.empty())
+    problem.differentiate(start, *first);
   objective_initial = first->objective;
   smooth.lengths    = problem.lengths;
   for (std::size_t i = smooth.lengths.size(); i < start.size(); ++i)
@@ -46,7 +48,11 @@ Epigraph::Epigraph(const DesignProblem &the_problem) : problem(the_problem), smo
       smooth.start.push_back(tau);
       smooth.lower.push_back(tau - reach * size);
       smooth.upper.push_back(tau + reach * size);
-      smooth.lengths.push_back(size);
+      // A step of the first length changes the maximum by about as much as a step of the others.
+      double slope = 0.;
+      for (unsigned int i = 0; i < start.size(); ++i)
+        slope += std::pow(smooth.lengths[i] * first->jacobian[largest(*first, maximum)][i], 2);
+      smooth.lengths.push_back(slope > 0. ? std::sqrt(slope) : size);
       if (!smooth.constraint_scales.empty())
         std::fill(smooth.constraint_scales.begin() + maximum.begin,
                   smooth.constraint_scales.begin() + maximum.end, size);
@@ -54,6 +60,13 @@ Epigraph::Epigraph(const DesignProblem &the_problem) : problem(the_problem), smo
   smooth.maxima.clear();
   std::replace(smooth.relations.begin(), smooth.relations.end(), Relation::term, Relation::at_most);
   smooth.n_linear = static_cast<unsigned int>(problem.maxima.size());
+  smooth.settle   = [this](const Vector &x) {
+    auto       result = design(x);
+    const auto at     = evaluated(result);
+    for (const Maximum &maximum : problem.maxima)
+      result.push_back(at->constraints[largest(*at, maximum)]);
+    return result;
+  };
   smooth.evaluate = [this](const Vector &x) { return to_smooth(*evaluated(design(x)), tau(x)); };
   if (problem.differentiate)
     smooth.differentiate = [this](const Vector &x, Evaluation &evaluation) {

@@ -156,6 +156,11 @@ std::shared_ptr<const ScaledProblem::Point> ScaledProblem::at(const std::vector<
   return remembered(evaluated(y));
 }
 
+std::shared_ptr<const ScaledProblem::Point> ScaledProblem::settled_at(const std::vector<double> &y)
+{
+  return at(problem.settle ? scaled(problem.settle(design(y))) : y);
+}
+
 std::shared_ptr<ScaledProblem::Point> ScaledProblem::evaluated(const std::vector<double> &y)
 {
   auto point = std::make_shared<Point>();

@@ -2,6 +2,8 @@
 #include <snug/optimization/dense_vectors.h>
 #include <snug/optimization/step_model.h>
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 #include <nlopt.hpp>
 
@@ -26,6 +28,32 @@ struct Subproblem
   double                       unit, scale, value; ///< the objective is (f - value) / scale
   Vector                       slopes;             ///< of the constraints at z = 0
   Vector                       allowed;            ///< violations
+  /// @name Where variables enter linearly: the best of all steps that NLopt tries, after a repair.
+  /// NLopt itself returns the best step that meets all constraints, which may be the first one,
+  /// because it meets constraints with kinks to about 1e-6 only.
+  /// @{
+  std::function<void(Vector &)> repair         = {};
+  mutable Vector                best           = {};
+  mutable double                best_objective = std::numeric_limits<double>::infinity();
+  /// @}
+
+  void try_repaired(const double *z) const
+  {
+    Vector d(z, z + model.size());
+    for (double &entry : d)
+      entry *= unit;
+    repair(d);
+    const auto &there = model(d);
+    for (unsigned int j = 0; j < relations.size(); ++j)
+      if (optimization::violation(relations[j], there.constraints[j]) > is_met)
+        return;
+    if (!(there.objective < best_objective))
+      return;
+    best_objective = there.objective;
+    best           = d;
+    for (double &entry : best)
+      entry /= unit;
+  }
 
   const ScaledProblem::Prediction &at(const double *z) const
   {
@@ -37,7 +65,9 @@ struct Subproblem
 
   static double objective(unsigned int n, const double *z, double *gradient, void *data)
   {
-    const auto &self      = *static_cast<Subproblem *>(data);
+    const auto &self = *static_cast<Subproblem *>(data);
+    if (self.repair)
+      self.try_repaired(z);
     const auto &predicted = self.at(z);
     if (gradient != nullptr)
       for (unsigned int i = 0; i < n; ++i)
@@ -157,6 +187,22 @@ Vector StepModel::minimizer(const double radius) const
   return d;
 }
 
+/// Change the variables of @p d that enter linearly such that the constraints in which they occur
+/// are met.
+void StepModel::repair(Vector &d) const
+{
+  const auto &there = (*this)(d);
+  const auto &c     = there.constraints;
+  for (unsigned int i = problem.n_nonlinear(); i < size(); ++i)
+    {
+      double change = 0.;
+      for (unsigned int j = 0; j < c.size(); ++j)
+        if (const double slope = there.jacobian[j][i]; c[j] > 0. && slope < 0.)
+          change = std::max(change, -c[j] / slope);
+      d[i] += change;
+    }
+}
+
 /// Minimize from @p d on, in steps d / unit.
 Vector StepModel::minimize_from(const Vector &d, const double radius, const double unit) const
 {
@@ -192,7 +238,6 @@ Vector StepModel::minimize_from(const Vector &d, const double radius, const doub
   if (n_other > 0)
     best.add_inequality_mconstraint(&Subproblem::constraints<Relation::at_most>, &subproblem,
                                     Vector(n_other, 1e-12));
-  minimize(best, z);
   const auto violations = [&] {
     const auto &there  = subproblem.at(z.data());
     Vector      result = there.constraints;
@@ -200,6 +245,11 @@ Vector StepModel::minimize_from(const Vector &d, const double radius, const doub
       result[j] = violation(relations[j], result[j]);
     return result;
   };
+  if (problem.n_nonlinear() < size())
+    subproblem.repair = [this](Vector &step) { repair(step); };
+  minimize(best, z);
+  if (!subproblem.best.empty())
+    z = subproblem.best;
   if (largest(violations()) > is_met)
     {
       z.assign(size(), 0.);

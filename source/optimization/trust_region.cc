@@ -110,7 +110,7 @@ bool TrustRegion::evaluated(Trial &trial)
 {
   try
     {
-      trial.point = problem.at(trial.y);
+      trial.point = problem.settled_at(trial.y);
     }
   catch (const SolveError &no_value)
     {

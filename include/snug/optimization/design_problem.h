@@ -82,6 +82,8 @@ struct DesignProblem
   std::vector<Maximum> maxima;
   /// number of the last variables that enter all functions linearly
   unsigned int n_linear = 0;
+  /// Return a design with these variables at their best values for the others. Empty: as it is.
+  std::function<std::vector<double>(const std::vector<double> &)> settle;
   /// predict() has the curvature of the objective; else it is learnt from gradients.
   bool predicts_objective = false;
 };

@@ -51,6 +51,10 @@ public:
   /// @throws SolveError if one is not finite; what evaluate() throws.
   std::shared_ptr<const Point> at(const std::vector<double> &y);
 
+  /// The values at @p y, where variables that enter linearly take their best values. @throws like
+  /// at().
+  std::shared_ptr<const Point> settled_at(const std::vector<double> &y);
+
   /// The values with their gradients. @throws SolveError if one is not finite; what
   /// differentiate() throws. So do all that need gradients.
   const Evaluation &differentiated(const Point &point) const;

@@ -109,7 +109,10 @@ TEST(Epigraph, FindsTheKinkOfThreeFunctions)
                              {(x[0] - 2.) * (x[0] - 2.) + y * y, {2. * (x[0] - 2.), 2. * y}},
                              {2. * y + 1.5, {0., 2.}}};
   };
-  const auto   result = minimize(problem(), {});
+  OptimizationParameters parameters;
+  parameters.objective_tolerance = parameters.gradient_tolerance = parameters.design_tolerance =
+    1e-10;
+  const auto   result = minimize(problem(), parameters);
   const double y      = 1. - std::sqrt(1.5);
   EXPECT_TRUE(result.success) << result.stop_reason;
   EXPECT_NEAR(result.x[0], 1., 1e-6);
