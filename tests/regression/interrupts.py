@@ -139,7 +139,7 @@ class Check:
         found = [name for name, wrong in {
             "it did not stop by the signal": summary["stop_reason"] != "interrupted",
             "its design is not the best": summary["objective_final"] != min(done),
-            "no pictures": not (output / "solution.pvd").exists()}.items() if wrong]
+            "no pictures": not list(output.rglob("solution.pvd"))}.items() if wrong]
         self.failed += len(found)
         for problem in found:
             print(f"WRONG {problem}: {summary}, evaluations {done}")
@@ -175,8 +175,10 @@ class Check:
 
     def second_signal(self, number):
         # finer, so that what follows the first one lasts until the second
-        output, process = self.start("twice", "Body punch/Refinements=1",
-                                     "Body foundation/Refinements=1")
+        text = pathlib.Path(self.options.scene).read_text()
+        bodies = re.search(r"^set Bodies *= *(.*)$", text, re.MULTILINE).group(1).split(",")
+        output, process = self.start("twice", *(f"Body {body.strip()}/Refinements=1"
+                                                for body in bodies))
         self.wait_until(process, lambda: objectives(output))
         for _ in range(2):
             if process.poll() is None:

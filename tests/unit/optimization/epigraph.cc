@@ -109,15 +109,13 @@ TEST(Epigraph, FindsTheKinkOfThreeFunctions)
                              {(x[0] - 2.) * (x[0] - 2.) + y * y, {2. * (x[0] - 2.), 2. * y}},
                              {2. * y + 1.5, {0., 2.}}};
   };
-  OptimizationParameters parameters;
-  parameters.objective_tolerance = parameters.gradient_tolerance = parameters.design_tolerance =
-    1e-10;
-  const auto   result = minimize(problem(), parameters);
+  const auto   result = minimize(problem(), {});
   const double y      = 1. - std::sqrt(1.5);
   EXPECT_TRUE(result.success) << result.stop_reason;
   EXPECT_NEAR(result.x[0], 1., 1e-6);
   EXPECT_NEAR(result.x[1], y, 1e-6);
-  EXPECT_NEAR(result.objective_final, 1. + y * y, 1e-8);
+  // Terms within 1e-6 of the maximum count as active.
+  EXPECT_NEAR(result.objective_final, 1. + y * y, 1e-6);
 }
 
 /// The range of x, 1 - x and 0.3 + x/10 is max(x, 1-x) - 0.3 - x/10 near x = 1/2, where it is
