@@ -66,13 +66,15 @@ double entry(const test::Vtu &vtu, const std::string &name, unsigned int point, 
   return vtu.arrays.at(name)[point * vtu.components.at(name) + c];
 }
 
+/// The fields of a state whose displacement is linear, with body 1 moved by @p motion.
 template <int dim>
-void expect_linear_fields(unsigned int degree)
+void expect_linear_fields(unsigned int degree, const geometry::RigidMotion<dim> &motion = {})
 {
   const test::ScratchDirectory scratch;
-  const Bodies<dim>            bodies(true, degree);
-  const auto                   materials = test::two_materials();
-  io::FieldOutput<dim>         output(scratch.path, a_file_per_rank());
+  Bodies<dim>                  bodies(true, degree);
+  bodies.position.bodies[1]      = motion;
+  const auto           materials = test::two_materials();
+  io::FieldOutput<dim> output(scratch.path, a_file_per_rank());
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
 
   int rank;
@@ -85,20 +87,32 @@ void expect_linear_fields(unsigned int degree)
       dealii::Tensor<1, dim> x;
       for (unsigned int c = 0; c < dim; ++c)
         x[c] = entry(vtu, "", p, c);
+      const geometry::RigidMotion<dim> to_space =
+        entry(vtu, "body", p) == 1. ? motion : geometry::RigidMotion<dim>();
+      x                       = to_space.point_back(x);
       const unsigned int body = x[dim - 1] < 1. + 0.25 * dim ? 0 : 1;
       // on the interface of the bodies x does not tell which one it is
       if (std::abs(x[dim - 1] - (1. + 0.25 * dim)) > 1e-6)
         {
           EXPECT_EQ(entry(vtu, "body", p), body);
         }
-      const auto u = A * x;
+      dealii::Tensor<1, dim> moved;
+      for (unsigned int c = 0; c < dim; ++c)
+        moved[c] = 0.25 * (c + 1);
+      moved        = to_space.vector(moved);
+      const auto u = to_space.vector(A * x);
       // single precision of numbers of order 1 (fields) and 10 (stress)
       for (unsigned int c = 0; c < dim; ++c)
         {
-          EXPECT_NEAR(entry(vtu, "displacement", p, c), u[c], 1e-6);
-          EXPECT_NEAR(entry(vtu, "design_displacement", p, c), 0.25 * (c + 1), 1e-6);
+          EXPECT_NEAR(entry(vtu, "displacement", p, c), u[c], 2e-6);
+          EXPECT_NEAR(entry(vtu, "design_displacement", p, c), moved[c], 1e-6);
         }
-      const auto sigma = test::hooke(materials[std::lround(entry(vtu, "body", p))], A);
+      dealii::Tensor<2, 3> Q = dealii::unit_symmetric_tensor<3>();
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          Q[c][d] = to_space.Q[c][d];
+      const auto sigma =
+        Q * test::hooke(materials[std::lround(entry(vtu, "body", p))], A) * transpose(Q);
       for (unsigned int c = 0; c < 9; ++c)
         EXPECT_NEAR(entry(vtu, "stress", p, c), sigma[c / 3][c % 3], 1e-5);
       auto deviator = sigma;
@@ -121,6 +135,12 @@ TEST(FieldOutput, HoldsALinearStateIn3D)
 {
   expect_linear_fields<3>(1);
   expect_linear_fields<3>(2);
+}
+
+TEST(FieldOutput, ShowsBodiesInTheirPositions)
+{
+  expect_linear_fields<2>(2, geometry::rigid_motion<2>("rotate z 30 about 1 0.5, shift 0.2 0"));
+  expect_linear_fields<3>(1, geometry::rigid_motion<3>("rotate x 30, rotate z 10 about 1 0 0"));
 }
 
 /// The file of this rank has as many points as its cells have nodes.
