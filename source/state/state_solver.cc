@@ -84,6 +84,36 @@ StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsi
 }
 
 template <int dim>
+qp::WarmStart StateSolver<dim>::scaled_start(const std::vector<ContactState<dim>> &states,
+                                             const Field                          &positions,
+                                             const unsigned int                    load_case) const
+{
+  for (auto other = states.rbegin(); other != states.rend(); ++other)
+    {
+      if (&problem->of(other->load_case) != &problem->of(load_case))
+        continue;
+      const auto f = loads(positions, load_case), g = loads(positions, other->load_case);
+      double     products[3] = {0., 0., 0.};
+      for (unsigned int s = 0; s < f.size(); ++s)
+        for (unsigned int i = 0; i < f[s].n_rows(); ++i)
+          {
+            products[0] += f[s](i) * f[s](i);
+            products[1] += f[s](i) * g[s](i);
+            products[2] += g[s](i) * g[s](i);
+          }
+      MPI_Allreduce(MPI_IN_PLACE, products, 3, MPI_DOUBLE, MPI_SUM, context().communicator());
+      const auto [ff, fg, gg] = products;
+      if (!(fg > 0.) || fg * fg < 0.5 * ff * gg)
+        continue;
+      qp::WarmStart start;
+      start.lambda = qp::MultiVector(other->dual.lambda.n_rows());
+      start.lambda.add(fg / gg, other->dual.lambda);
+      return start;
+    }
+  return qp::WarmStart();
+}
+
+template <int dim>
 ContactState<dim> StateSolver<dim>::solve_on(const ContactState<dim> &state,
                                              const double             tolerance) const
 {

@@ -33,6 +33,13 @@ public:
   ContactState<dim>
   solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
 
+  /// Return the multipliers of the last of @p states whose position and loads are those of a load
+  /// case, the loads up to a factor and to 45 degrees, times this factor; nothing if there is none.
+  /// @p states and the load case are at @p positions. Collective.
+  qp::WarmStart scaled_start(const std::vector<ContactState<dim>> &states,
+                             const Field                          &positions,
+                             unsigned int                          load_case) const;
+
   /// Return the relative tolerance to which solve() solves. At first this is the tolerance of the
   /// model.
   double tolerance() const { return relative_tolerance; }
