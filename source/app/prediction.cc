@@ -92,11 +92,11 @@ bool Evaluator<dim>::is_predicted() const
 template <int dim>
 std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) const
 {
-  using Numbers                                       = std::vector<double>;
-  const unsigned int                           n      = problem.shapes->n_variables();
-  const auto                                   steps  = problem.shapes->first_steps();
-  const auto                                  &solver = *problem.solver;
-  std::map<const void *, std::vector<Numbers>> by_area; // per contact of a position and variable
+  using Numbers             = std::vector<double>;
+  const unsigned int n      = problem.shapes->n_variables();
+  const auto         steps  = problem.shapes->first_steps();
+  const auto        &solver = *problem.solver;
+  std::map<const contact::Contact<dim> *, std::vector<Numbers>> by_area; // per variable
   for (const unsigned int c : solver.positions())
     for (unsigned int j = 0; j < n; ++j)
       {

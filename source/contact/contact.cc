@@ -165,6 +165,21 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
   return gradient;
 }
 
+/// Subtract the energy gradient of a body at rest, because the energy is linear in the
+/// displacement.
+template <int dim>
+typename Contact<dim>::Field
+Contact<dim>::coefficient_gradient(const Field               &positions,
+                                   const Field               &displacement,
+                                   const std::vector<double> &forces) const
+{
+  auto       gradient = energy_gradient(positions, displacement, forces);
+  const auto of_gaps  = energy_gradient(positions, Field(surface.n_nodes()), forces);
+  for (unsigned int point = 0; point < gradient.size(); ++point)
+    gradient[point] -= of_gaps[point];
+  return gradient;
+}
+
 template <int dim>
 std::vector<double> Contact<dim>::areas(const Field &positions) const
 {

@@ -15,20 +15,13 @@ normal_gradient(const state::StateSolver<dim>            &solver,
                 const std::vector<double>                &forces,
                 const dealii::Tensor<1, dim>             &e)
 {
-  const auto &surface = solver.surface();
-  // energy_gradient() differentiates sum_i force_i (sum_b c_b . u_b - gap_i), which is linear in u.
+  const auto                        &surface = solver.surface();
   typename mesh::Surface<dim>::Field moved(surface.n_nodes());
-  const auto                         at_rest = moved;
   for (const auto &face : surface.faces())
     if (contact::is_on(face, pair.slave))
       for (const unsigned int node : face.nodes)
         moved[node] = solver.motion(load_case, face.body).vector_back(e);
-  const auto &contact  = solver.contact(load_case);
-  auto        gradient = contact.energy_gradient(positions, moved, forces);
-  const auto  of_gaps  = contact.energy_gradient(positions, at_rest, forces);
-  for (unsigned int node = 0; node < gradient.size(); ++node)
-    gradient[node] -= of_gaps[node];
-  return gradient;
+  return solver.contact(load_case).coefficient_gradient(positions, moved, forces);
 }
 
 template <int dim>

@@ -9,9 +9,9 @@
 namespace snug::response {
 namespace {
 /**
- * The force or the moment that supports apply to the nodes of a boundary. Nodal forces
- * r = K u - f + B_c' lambda of the contact rows B_c are zero at free nodes. With the virtual motion
- * v of the nodes, v = e or v = e x (x - p), and v = 0 at all other nodes,
+ * The force or the moment that supports apply to the nodes of a boundary. The nodal forces
+ * r = K u - f + B_c' lambda, with the contact rows B_c, are zero at free nodes. With the virtual
+ * motion v of the nodes, v = e or v = e x (x - p), and v = 0 at all other nodes,
  * J = v . r = a(u, v) - f(v) + sum_i lambda_i c_i . v.
  */
 template <int dim>
@@ -37,40 +37,43 @@ public:
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
-    const auto  v    = motion(solver, state);
-    const auto &feti = solver.feti(state);
-    double      sum  = 0.;
-    for (unsigned int s = 0; s < v.size(); ++s)
-      {
-        qp::MultiVector r(v[s].n_rows());
-        feti.linearization().subdomains()[s].K.multiply_add(1., state.u[s], r);
-        r.add(-1., feti.loads()[s]);
-        for (unsigned int i = 0; i < r.n_rows(); ++i)
-          sum += r(i) * v[s](i);
-      }
-    sum            = dealii::Utilities::MPI::sum(sum, solver.context().communicator());
-    const auto c_v = of_rows(solver, state, v);
-    for (unsigned int i = 0; i < c_v.size(); ++i)
-      sum += state.contact[i].force * c_v[i];
-    return sum;
+    const auto r   = nodal_forces(solver, state);
+    const auto v   = nodal_motion(solver, state);
+    double     sum = 0.;
+    for (unsigned int node = 0; node < r.size(); ++node)
+      sum += v[node] * r[node];
+    return dealii::Utilities::MPI::sum(sum, solver.context().communicator());
   }
 
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    const auto    v    = motion(solver, state);
-    const auto   &feti = solver.feti(state);
-    Partials<dim> result;
+    const auto         &surface    = solver.surface();
+    const auto         &contact    = solver.contact(state.load_case);
+    const auto          v          = nodal_motion(solver, state);
+    const auto          v_torn     = torn(solver, v);
+    const auto          on_surface = surface.gather(v);
+    const auto          x          = surface.gather(state.positions);
+    std::vector<double> forces;
+    Partials<dim>       result;
     result.positions.resize(solver.mesh().n_points());
-    for (unsigned int s = 0; s < v.size(); ++s)
+    for (unsigned int s = 0; s < v_torn.size(); ++s)
       {
-        result.u.emplace_back(v[s].n_rows());
-        feti.linearization().subdomains()[s].K.multiply_add(1., v[s], result.u[s]);
+        result.u.emplace_back(v_torn[s].n_rows());
+        solver.feti(state).linearization().subdomains()[s].K.multiply_add(1., v_torn[s],
+                                                                          result.u[s]);
       }
-    result.forces = of_rows(solver, state, v);
-    state::add_stiffness_gradient(solver, state, v, 1., result.positions);
-    state::add_load_gradient(solver, state, v, -1., result.positions);
-    add_row_gradient(solver, state, v, result.positions);
+    for (const auto &row : contact.rows(x))
+      {
+        result.forces.push_back(0.);
+        for (const auto &[node, c] : row.coefficients)
+          result.forces.back() += c * on_surface[node];
+      }
+    for (const auto &row : state.contact)
+      forces.push_back(row.force);
+    state::add_stiffness_gradient(solver, state, v_torn, 1., result.positions);
+    state::add_load_gradient(solver, state, v_torn, -1., result.positions);
+    surface.add_owned(contact.coefficient_gradient(x, on_surface, forces), result.positions);
     if (is_moment)
       add_lever_gradient(solver, state, result.positions);
     return result;
@@ -121,7 +124,6 @@ private:
   {
     const auto               boundary = find_boundary(solver, parameters);
     const mesh::Surface<dim> surface(solver.mesh(), {boundary});
-    const auto               bodies = surface.bodies_of_points();
     std::vector<bool>        on_faces(surface.n_nodes(), false), result;
     for (const auto &face : surface.faces())
       for (const unsigned int node : face.nodes)
@@ -139,66 +141,66 @@ private:
     return result;
   }
 
-  feti::PrimalVectors motion(const state::StateSolver<dim>  &solver,
-                             const state::ContactState<dim> &state) const
+  /// Return v at the local nodes.
+  mesh::Field<dim> nodal_motion(const state::StateSolver<dim>  &solver,
+                                const state::ContactState<dim> &state) const
   {
-    const auto          on_face = on_boundary(solver);
-    const auto          body    = find_boundary(solver, parameters).first;
-    const auto          moved   = solver.motion(state.load_case, body);
-    const auto         &all     = solver.tearing().subdomains;
-    feti::PrimalVectors v;
-    for (unsigned int s = 0; s < all.size(); ++s)
-      {
-        v.emplace_back(solver.assemblers()[s]->n_dofs());
-        for (unsigned int a = 0; a < all[s].nodes.size(); ++a)
-          if (const unsigned int node = all[s].nodes[a]; on_face[node])
-            {
-              const auto at = motion_at(moved, state.positions[node]);
-              for (unsigned int c = 0; c < dim; ++c)
-                v[s](dim * a + c) = at[c];
-            }
-      }
+    const auto       on_face  = on_boundary(solver);
+    const auto       to_space = motion_of_body(solver, state);
+    mesh::Field<dim> v(on_face.size());
+    for (unsigned int node = 0; node < v.size(); ++node)
+      if (on_face[node])
+        v[node] = motion_at(to_space, state.positions[node]);
     return v;
   }
 
-  /// Return c_i . v of all contact rows.
-  std::vector<double> of_rows(const state::StateSolver<dim>  &solver,
-                              const state::ContactState<dim> &state,
-                              const feti::PrimalVectors      &v) const
+  geometry::RigidMotion<dim> motion_of_body(const state::StateSolver<dim>  &solver,
+                                            const state::ContactState<dim> &state) const
   {
-    const auto &surface = solver.surface();
-    const auto  at      = surface.gather(state::nodal_values(solver, v, 0));
-    const auto  rows    = solver.contact(state.load_case).rows(surface.gather(state.positions));
-    std::vector<double> result;
-    for (const auto &row : rows)
+    return solver.motion(state.load_case, find_boundary(solver, parameters).first);
+  }
+
+  /// Return a field of the local nodes on the nodes of the subdomains.
+  static feti::PrimalVectors torn(const state::StateSolver<dim> &solver,
+                                  const mesh::Field<dim>        &field)
+  {
+    const auto         &all = solver.tearing().subdomains;
+    feti::PrimalVectors result;
+    for (unsigned int s = 0; s < all.size(); ++s)
       {
-        result.push_back(0.);
-        for (const auto &[node, c] : row.coefficients)
-          result.back() += c * at[node];
+        result.emplace_back(solver.assemblers()[s]->n_dofs());
+        for (unsigned int a = 0; a < all[s].nodes.size(); ++a)
+          for (unsigned int c = 0; c < dim; ++c)
+            result[s](dim * a + c) = field[all[s].nodes[a]][c];
       }
     return result;
   }
 
-  /// Add d/dX sum_i force_i c_i . v at fixed v.
-  void add_row_gradient(const state::StateSolver<dim>  &solver,
-                        const state::ContactState<dim> &state,
-                        const feti::PrimalVectors      &v,
-                        mesh::Field<dim>               &gradient) const
+  /// Return r at the local nodes, as shares that add up over ranks. The gluing forces of the copies
+  /// of a node cancel.
+  static mesh::Field<dim> nodal_forces(const state::StateSolver<dim>  &solver,
+                                       const state::ContactState<dim> &state)
   {
-    const auto         &surface = solver.surface();
-    const auto         &contact = solver.contact(state.load_case);
-    const auto          x       = surface.gather(state.positions);
-    const auto          at      = surface.gather(state::nodal_values(solver, v, 0));
-    std::vector<double> forces;
-    for (const auto &row : state.contact)
-      forces.push_back(row.force);
-    // energy_gradient() contains the gaps, which do not depend on the displacement.
-    auto       of_v = contact.energy_gradient(x, at, forces);
-    const auto of_gaps =
-      contact.energy_gradient(x, typename mesh::Surface<dim>::Field(at.size()), forces);
-    for (unsigned int point = 0; point < of_v.size(); ++point)
-      of_v[point] -= of_gaps[point];
-    surface.add_owned(of_v, gradient);
+    const auto      &feti = solver.feti(state);
+    const auto      &all  = solver.tearing().subdomains;
+    mesh::Field<dim> r(solver.mesh().n_local_nodes());
+    for (unsigned int s = 0; s < all.size(); ++s)
+      {
+        qp::MultiVector torn(solver.assemblers()[s]->n_dofs());
+        feti.linearization().subdomains()[s].K.multiply_add(1., state.u[s], torn);
+        torn.add(-1., feti.loads()[s]);
+        for (unsigned int a = 0; a < all[s].nodes.size(); ++a)
+          for (unsigned int c = 0; c < dim; ++c)
+            r[all[s].nodes[a]][c] += torn(dim * a + c);
+      }
+    const auto                        &surface = solver.surface();
+    typename mesh::Surface<dim>::Field of_rows(surface.n_nodes());
+    const auto rows = solver.contact(state.load_case).rows(surface.gather(state.positions));
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      for (const auto &[node, c] : rows[i].coefficients)
+        of_rows[node] += state.contact[i].force * c;
+    surface.add_owned(of_rows, r);
+    return r;
   }
 
   /// Add the derivative by the places of the nodes in v = e x (x - p): r . (e x dx) = dx . (r x e).
@@ -206,39 +208,13 @@ private:
                           const state::ContactState<dim> &state,
                           mesh::Field<dim>               &gradient) const
   {
-    const auto  on_face = on_boundary(solver);
-    const auto  body    = find_boundary(solver, parameters).first;
-    const auto  moved   = solver.motion(state.load_case, body);
-    const auto &feti    = solver.feti(state);
-    const auto &all     = solver.tearing().subdomains;
-    for (unsigned int s = 0; s < all.size(); ++s)
-      {
-        qp::MultiVector r(solver.assemblers()[s]->n_dofs());
-        feti.linearization().subdomains()[s].K.multiply_add(1., state.u[s], r);
-        r.add(-1., feti.loads()[s]);
-        for (unsigned int a = 0; a < all[s].nodes.size(); ++a)
-          if (const unsigned int node = all[s].nodes[a]; on_face[node])
-            {
-              dealii::Tensor<1, dim> force;
-              for (unsigned int c = 0; c < dim; ++c)
-                force[c] = r(dim * a + c);
-              gradient[node] -= moved.vector_back(elasticity::turned(axis(), moved.vector(force)));
-            }
-      }
-    const auto &surface = solver.surface();
-    const auto  rows    = solver.contact(state.load_case).rows(surface.gather(state.positions));
-    typename mesh::Surface<dim>::Field of_rows(surface.n_points());
-    std::vector<double>                is_on(solver.mesh().n_local_nodes());
-    mesh::Field<dim>                   flags(solver.mesh().n_local_nodes());
-    for (unsigned int node = 0; node < flags.size(); ++node)
-      flags[node][0] = on_face[node] ? 1. : 0.;
-    const auto on_surface = surface.gather(flags);
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      for (const auto &[node, c] : rows[i].coefficients)
-        if (on_surface[node][0] != 0.)
-          of_rows[node] -=
-            state.contact[i].force * moved.vector_back(elasticity::turned(axis(), moved.vector(c)));
-    surface.add_owned(of_rows, gradient);
+    const auto on_face  = on_boundary(solver);
+    const auto to_space = motion_of_body(solver, state);
+    const auto r        = nodal_forces(solver, state);
+    for (unsigned int node = 0; node < r.size(); ++node)
+      if (on_face[node])
+        gradient[node] -=
+          to_space.vector_back(elasticity::turned(axis(), to_space.vector(r[node])));
   }
 };
 } // namespace

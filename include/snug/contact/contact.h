@@ -93,9 +93,14 @@ public:
   std::vector<Row<dim>> rows(const Field &positions) const;
   std::vector<Row<dim>> row_derivatives(const Field &positions, const Field &velocity) const;
   /// Return the contact part of the energy gradient for the forces of all rows.
-  Field               energy_gradient(const Field               &positions,
-                                      const Field               &displacement,
-                                      const std::vector<double> &forces) const;
+  Field energy_gradient(const Field               &positions,
+                        const Field               &displacement,
+                        const std::vector<double> &forces) const;
+  /// Return d/dX sum_i force_i sum_b c_ib . u_b at fixed @p displacement, the energy gradient
+  /// without the gaps.
+  Field               coefficient_gradient(const Field               &positions,
+                                           const Field               &displacement,
+                                           const std::vector<double> &forces) const;
   std::vector<double> areas(const Field &positions) const;
   /// Return d/dX sum_i factors_i areas_i for the factors of all rows.
   Field area_gradient(const Field &positions, const std::vector<double> &factors) const;
