@@ -37,7 +37,8 @@ spline_net(const ShapeParameters &parameters, const unsigned int n_axes, const u
     {
       // Bernstein polynomials of higher degree lose all digits to round-off.
       require(degree > 0 || (number >= 1 && number <= 50), "must lie between 1 and 50 each");
-      require(degree == 0 || number > degree, "must be at least one more than 'Degree' each");
+      require(degree == 0 || number == 1 || number > degree,
+              "must be 1 or at least one more than 'Degree' each");
     }
   return SplineNet(n, degree);
 }

@@ -31,7 +31,8 @@ void declare_modes(Entries &entries, ShapeParameters &shape)
     "z. Control points are numbered along the first edge first.");
   entries.add(
     "Degree", shape.degree,
-    "The degree of B-splines, at least 1 and below the number of control points along each edge.");
+    "The degree of B-splines, at least 1 and below the number of control points along each edge. "
+    "Along an edge with 1 control point the splines are constant.");
   entries.add(
     "Direction", shape.direction, per_dimension(),
     "The direction x, y, z in which control points or nodes move, with one design variable "

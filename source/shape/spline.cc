@@ -61,7 +61,7 @@ SplineNet::SplineNet(const std::vector<unsigned int> &n, const unsigned int degr
   for (const unsigned int points : n)
     // The degree points - 1 gives one span with Bernstein polynomials. A single control point has
     // degree 0 and moves all points by the same amount.
-    axes.emplace_back(points, degree == 0 ? points - 1 : degree);
+    axes.emplace_back(points, degree == 0 || points == 1 ? points - 1 : degree);
 }
 
 unsigned int SplineNet::n_points() const
@@ -113,11 +113,12 @@ std::vector<double> SplineNet::greville(const unsigned int i) const
   return result;
 }
 
-/// With clamped knots, only control points on the border move the border of the face or box.
+/// With clamped knots, only control points on the border move the border of the face or box. An
+/// axis with one control point has no border, because all control points would be on it.
 bool SplineNet::on_border(const unsigned int i) const
 {
   for (unsigned int axis = 0; axis < n_axes(); ++axis)
-    if (on_side(i, axis, 0) || on_side(i, axis, 1))
+    if (axes[axis].n() > 1 && (on_side(i, axis, 0) || on_side(i, axis, 1)))
       return true;
   return false;
 }

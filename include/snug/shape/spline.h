@@ -39,7 +39,8 @@ class SplineNet
 {
 public:
   /// Construct B-splines of @p degree along axes with @p n control points each. The degree
-  /// 0 stands for one span, that is the degree n - 1.
+  /// 0 stands for one span, that is the degree n - 1. Splines are constant along an axis with one
+  /// control point.
   SplineNet(const std::vector<unsigned int> &n, unsigned int degree);
 
   unsigned int n_axes() const { return axes.size(); }
@@ -55,7 +56,7 @@ public:
   /// Return the Greville abscissae of control point @p i.
   std::vector<double> greville(unsigned int i) const;
 
-  /// Return whether control point @p i is the first or last along an axis.
+  /// Return whether control point @p i is the first or last along an axis with several points.
   bool on_border(unsigned int i) const;
 
   /// Return whether control point @p i is the first (@p side 0) or last (1) along

@@ -100,6 +100,18 @@ TEST(SplineNet, RunsTheFirstAxisFastest)
   EXPECT_TRUE(net.on_border(6));
 }
 
+TEST(SplineNet, IsConstantAlongAnAxisWithOnePoint)
+{
+  const SplineNet net({6, 1}, 3);
+  const SplineNet along({6}, 3);
+  ASSERT_EQ(net.n_points(), 6u);
+  for (const double s : {0., 0.3, 0.77, 1.})
+    for (const double t : {0., 0.4, 1.})
+      EXPECT_EQ(net.values({s, t}), along.values({s}));
+  for (unsigned int i = 0; i < 6; ++i)
+    EXPECT_EQ(net.on_border(i), i == 0 || i == 5);
+}
+
 TEST(SplineNet, HasLocalSupport)
 {
   const SplineNet net({10, 8, 6}, 2);
