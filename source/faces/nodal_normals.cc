@@ -51,6 +51,7 @@ NodalNormals<dim>::NodalNormals(const mesh::Surface<dim>        &surface,
     for (const unsigned int node : surface.faces()[f].nodes)
       touched[node] = true;
   check(areas, positions);
+  check_true_surface();
   correct();
   for (unsigned int node = 0; node < unit.size(); ++node)
     if (touched[node])
@@ -105,6 +106,30 @@ void NodalNormals<dim>::check(const Field &areas, const Field &x) const
         message << "the contact faces at (" << x[node] << ") are tangled: they have no normal";
         throw TangledMesh(message.str());
       }
+}
+
+/// Throw an error where the true surface of a face turns back from the mesh. The contact search
+/// would exclude the node, because its normal points into the body.
+template <int dim>
+void NodalNormals<dim>::check_true_surface() const
+{
+  const PointField<dim, double> x(positions);
+  for (const unsigned int f : faces)
+    {
+      const auto &face = surface.faces()[f];
+      for (unsigned int k = 0; k < face.nodes.size() && !face.samples.empty(); ++k)
+        if (!(area_at_node(shape, face, k, x) *
+                area_vector(tangents<dim>(shape.at_node(k), face.nodes, positions)) >
+              0.))
+          {
+            std::ostringstream message;
+            message << "the true surface of a contact face turns back at ("
+                    << positions[face.nodes[k]]
+                    << "): the map of the mesh, for example its 'Warp', must not have a vanishing "
+                       "derivative along the face";
+            throw TangledMesh(message.str());
+          }
+    }
 }
 
 template <int dim>

@@ -31,7 +31,8 @@ public:
 
   /// Compute the normals. @p faces are indices into @p surface, and @p positions are those of all
   /// points. Without @p held, supports do not count. The references must outlive this object.
-  /// @throws TangledMesh if an area vector vanishes or is not finite.
+  /// @throws TangledMesh if an area vector vanishes or is not finite, or if the true surface of a
+  /// face turns back from the mesh.
   NodalNormals(const mesh::Surface<dim>        &surface,
                const std::vector<unsigned int> &faces,
                const FaceShape<dim>            &shape,
@@ -62,6 +63,7 @@ private:
   dealii::Tensor<1, dim, Number> normal(unsigned int                   node,
                                         dealii::Tensor<1, dim, Number> area) const;
   void                           check(const Field &areas, const Field &x) const;
+  void                           check_true_surface() const;
   void                           correct();
 };
 } // namespace snug::faces

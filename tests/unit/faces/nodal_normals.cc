@@ -74,6 +74,30 @@ void expect_radial_normals(unsigned int degree)
         EXPECT_NEAR((normals.normals()[node] - exact).norm(), 0., 1e-13);
       }
 }
+/// The derivative of x^2.3 vanishes at x = 0, and that of the polynomial through its samples is
+/// negative there.
+TEST(NodalNormals, TrueSurfacesThatTurnBackHaveNone)
+{
+  auto bodies                  = BoxTop<2>::bodies(false, "");
+  bodies[0].sampled_boundaries = {"top"};
+  for (const auto &[warp, is_good] :
+       {std::make_pair("x^2.3-x", false), std::make_pair("0.9*(x^2.3-x)", true)})
+    {
+      bodies[0].warp = {warp, "0.01*x"};
+      const mesh::BodyMesh<2>   mesh(MPI_COMM_WORLD, bodies, 1);
+      const mesh::Surface<2>    surface(mesh, {{0, 3}});
+      std::vector<unsigned int> faces(surface.faces().size());
+      std::iota(faces.begin(), faces.end(), 0u);
+      const FaceShape<2> shape(1);
+      const auto         normals = [&] {
+        return NodalNormals<2>(surface, faces, shape, surface.reference_positions());
+      };
+      if (is_good)
+        EXPECT_NO_THROW(normals());
+      else
+        EXPECT_THROW(normals(), TangledMesh);
+    }
+}
 } // namespace
 
 TEST(NodalNormals, DerivativesAgreeWithFiniteDifferences)
