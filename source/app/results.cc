@@ -2,6 +2,7 @@
 #include <snug/app/mesh_summary.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/io/profile.h>
 #include <snug/io/qp_export.h>
 #include <snug/io/shape_export.h>
 #include <snug/io/text_file.h>
@@ -340,7 +341,15 @@ void Results<dim>::export_shape(const std::vector<double> &design)
   throw_collectively(problem->context.communicator(), [&]() {
     if (problem->context.rank() != 0)
       return;
-    io::write_surface(path("surface"), faces, at_faces);
+    if constexpr (dim == 3)
+      io::write_surface(path("surface.stl"), faces, at_faces);
+    io::write_text_file(
+      path("profile.csv"),
+      io::profile_text(faces, at_faces, problem->mesh->degree(),
+                       [&](unsigned int body, unsigned int boundary) {
+                         return problem->scene.bodies[body].name + '.' +
+                                problem->mesh->geometry(body).boundary_names()[boundary];
+                       }));
     io::write_control_points(path("control-points.csv"), points);
   });
 }

@@ -2,8 +2,6 @@
 #include <snug/io/text_file.h>
 
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace snug::io {
 namespace {
@@ -48,88 +46,14 @@ std::string stl_text(const mesh::Surface<3>        &surface,
     }
   return text + "endsolid " + name + "\n";
 }
-
-/// Return the nodes of the polylines, piece by piece: first open pieces from their beginning,
-/// then closed pieces. @p faces maps the first node of each face to its nodes.
-///
-/// Faces have a direction, and each face begins where the face before it ends. An open piece begins
-/// at the node at which no face ends. In a closed piece the first node is repeated at the end.
-std::vector<std::vector<unsigned int>>
-polyline_pieces(std::map<unsigned int, std::vector<unsigned int>> faces)
-{
-  std::set<unsigned int> ends;
-  for (const auto &face : faces)
-    ends.insert(face.second.back());
-  std::vector<std::vector<unsigned int>> pieces;
-  while (!faces.empty())
-    {
-      // If every face has a predecessor, all remaining pieces are closed, and any face may be the
-      // first.
-      auto next = faces.begin();
-      for (auto face = faces.begin(); face != faces.end(); ++face)
-        if (ends.count(face->first) == 0)
-          {
-            next = face;
-            break;
-          }
-      std::vector<unsigned int> piece(1, next->first);
-      while (next != faces.end())
-        {
-          piece.insert(piece.end(), next->second.begin() + 1, next->second.end());
-          faces.erase(next);
-          next = faces.find(piece.back());
-        }
-      pieces.push_back(piece);
-    }
-  return pieces;
-}
-
-/// Return the polyline. Nodes are oriented such that (t_y, -t_x) points out of the body, so the
-/// body is on the left.
-std::string polyline_text(const mesh::Surface<2> &surface, const mesh::Surface<2>::Field &positions)
-{
-  std::map<unsigned int, std::vector<unsigned int>> faces;
-  for (const auto &face : surface.faces())
-    // No two faces begin at the same node, because each boundary goes around its body once.
-    faces[face.nodes.front()] = face.nodes;
-  std::string text  = "x,y\n";
-  bool        first = true;
-  for (const auto &piece : polyline_pieces(faces))
-    {
-      // Plotting programs such as gnuplot start a new line after an empty line.
-      text += first ? "" : "\n";
-      first = false;
-      for (const unsigned int node : piece)
-        text += exact(positions[node][0]) + ',' + exact(positions[node][1]) + '\n';
-    }
-  return text;
-}
 } // namespace
 
-template <>
-std::string surface_text(const mesh::Surface<2>        &surface,
-                         const mesh::Surface<2>::Field &positions,
-                         const std::string &)
+void write_surface(const std::string             &path,
+                   const mesh::Surface<3>        &surface,
+                   const mesh::Surface<3>::Field &positions)
 {
-  return polyline_text(surface, positions);
-}
-
-template <>
-std::string surface_text(const mesh::Surface<3>        &surface,
-                         const mesh::Surface<3>::Field &positions,
-                         const std::string             &name)
-{
-  return stl_text(surface, positions, name);
-}
-
-template <int dim>
-void write_surface(const std::string                        &stem,
-                   const mesh::Surface<dim>                 &surface,
-                   const typename mesh::Surface<dim>::Field &positions)
-{
-  // npos + 1 is 0, so a stem without directory is the name itself.
-  const std::string name = stem.substr(stem.rfind('/') + 1);
-  write_text_file(stem + (dim == 2 ? ".csv" : ".stl"), surface_text(surface, positions, name));
+  const std::string file = path.substr(path.rfind('/') + 1); // npos + 1 is 0
+  write_text_file(path, stl_text(surface, positions, file.substr(0, file.rfind('.'))));
 }
 
 template <int dim>
@@ -158,10 +82,6 @@ void write_control_points(const std::string                         &path,
   write_text_file(path, text);
 }
 
-template void
-write_surface(const std::string &, const mesh::Surface<2> &, const mesh::Surface<2>::Field &);
-template void
-write_surface(const std::string &, const mesh::Surface<3> &, const mesh::Surface<3>::Field &);
 template void write_control_points(const std::string &, const std::vector<shape::MovedPoint<2>> &);
 template void write_control_points(const std::string &, const std::vector<shape::MovedPoint<3>> &);
 } // namespace snug::io

@@ -1,0 +1,130 @@
+#include <snug/io/profile.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "boxes.h"
+#include "scratch.h"
+
+namespace snug {
+namespace {
+/// The profile as one map from column to text per row.
+std::vector<std::map<std::string, std::string>> read_profile(const std::string &text)
+{
+  const auto                                      table = test::read_csv(text);
+  std::vector<std::map<std::string, std::string>> rows;
+  for (unsigned int i = 1; i < table.size(); ++i)
+    {
+      rows.emplace_back();
+      for (unsigned int c = 0; c < table[0].size(); ++c)
+        rows.back()[table[0][c]] = c < table[i].size() ? table[i][c] : "";
+    }
+  return rows;
+}
+
+double number(const std::map<std::string, std::string> &row, const std::string &column)
+{
+  return std::stod(row.at(column));
+}
+
+std::string face_name(const unsigned int body, const unsigned int boundary)
+{
+  return std::to_string(body) + "." + std::to_string(boundary);
+}
+
+TEST(Profile, RunsWithTheBodyOnItsLeft)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(true), 2);
+  const unsigned int      top = geometry::boundary_index(mesh.geometry(1), "top");
+  const mesh::Surface<2>  surface(mesh, {{1, top}});
+  auto                    positions = surface.gather(mesh.reference_positions());
+  for (auto &x : positions)
+    x[1] -= 0.1 * x[0] * x[0]; // highest at x = 0
+  const auto rows = read_profile(io::profile_text(surface, positions, 2, face_name));
+  // cells of size 1/4, 1/4, 1/2 with two steps each
+  ASSERT_EQ(rows.size(), 7u);
+  EXPECT_EQ(number(rows.front(), "x"), 1.);
+  EXPECT_EQ(number(rows.back(), "x"), 0.);
+  for (const auto &row : rows)
+    {
+      const double x = number(row, "x"), drop = 0.1 * x * x;
+      EXPECT_EQ(row.at("face"), face_name(1, top));
+      EXPECT_NEAR(number(row, "arc_length"), 1. - x, 1e-14);
+      EXPECT_NEAR(number(row, "y"), 2. - drop, 1e-14);
+      EXPECT_NEAR(number(row, "dy"), -drop, 1e-14);
+      EXPECT_NEAR(number(row, "move"), -drop, 1e-14);
+      EXPECT_NEAR(number(row, "normal_y"), 1., 1e-14);
+      EXPECT_NEAR(number(row, "reference_drop"), 0., 1e-14);
+      EXPECT_NEAR(number(row, "drop"), drop, 1e-14);
+    }
+}
+
+TEST(Profile, OppositeSidesAreTwoPieces)
+{
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(false), 1);
+  const auto              index = [&](const std::string &face) {
+    return geometry::boundary_index(mesh.geometry(1), face);
+  };
+  const mesh::Surface<2> surface(mesh, {{1, index("bottom")}, {1, index("top")}});
+  const auto             positions = surface.gather(mesh.reference_positions());
+  const auto             rows = read_profile(io::profile_text(surface, positions, 1, face_name));
+  ASSERT_FALSE(rows.empty());
+  EXPECT_EQ(rows.front().at("piece"), "0");
+  EXPECT_EQ(rows.back().at("piece"), "1");
+  for (const auto &row : rows)
+    {
+      EXPECT_EQ(number(row, "normal_y"), row.at("face") == face_name(1, index("top")) ? 1. : -1.);
+      EXPECT_NEAR(number(row, "drop"), 0., 1e-14);
+    }
+}
+
+/// The normals of a whole ring cancel, so it has no highest point.
+TEST(Profile, ARingIsClosedAndHasNoDrop)
+{
+  geometry::BodyMeshParameters ring;
+  ring.source       = geometry::Source::ring;
+  ring.radius       = 2.;
+  ring.inner_radius = 1.;
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, {ring}, 1);
+  const mesh::Surface<2>  surface(mesh, {{0, geometry::boundary_index(mesh.geometry(0), "outer")}});
+  auto                    positions = surface.gather(mesh.reference_positions());
+  for (auto &x : positions)
+    x *= 1.01;
+  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name));
+  ASSERT_GT(rows.size(), 2u);
+  EXPECT_EQ(rows.front().at("x"), rows.back().at("x"));
+  EXPECT_EQ(rows.front().at("y"), rows.back().at("y"));
+  // the perimeter of the polygon of n sides
+  const double n = rows.size() - 1;
+  EXPECT_NEAR(number(rows.back(), "arc_length"), 4. * n * std::sin(M_PI / n), 1e-12);
+  for (const auto &row : rows)
+    {
+      EXPECT_NEAR(number(row, "move"), 0.02, 1e-12);
+      EXPECT_EQ(row.at("drop"), "");
+    }
+}
+
+TEST(Profile, SolidFacesHaveOneRowPerNode)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      const mesh::BodyMesh<3> mesh(MPI_COMM_WORLD, test::two_boxes<3>(true), degree);
+      const unsigned int      left = geometry::boundary_index(mesh.geometry(1), "left");
+      const mesh::Surface<3>  surface(mesh, {{1, left}});
+      auto                    positions = surface.gather(mesh.reference_positions());
+      for (auto &x : positions)
+        x[0] += 0.1 * x[1]; // into the body, highest at y = 0
+      const auto rows = read_profile(io::profile_text(surface, positions, degree, face_name));
+      EXPECT_EQ(rows.size(), surface.n_nodes());
+      for (const auto &row : rows)
+        {
+          EXPECT_EQ(row.count("arc_length"), 0u);
+          EXPECT_NEAR(number(row, "normal_x"), -1., 1e-12);
+          EXPECT_NEAR(number(row, "move"), -0.1 * number(row, "y"), 1e-12);
+          EXPECT_NEAR(number(row, "drop"), 0.1 * number(row, "y"), 1e-12);
+        }
+    }
+}
+} // namespace
+} // namespace snug
