@@ -13,9 +13,7 @@ const std::string rotate_entry = "Rotate";
 template <int dim>
 dealii::Tensor<2, dim> rotation_of(const BodyMeshParameters &parameters)
 {
-  dealii::Tensor<2, 3> whole;
-  for (unsigned int d = 0; d < 3; ++d)
-    whole[d][d] = 1.;
+  auto result = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
   for (const auto &turn : parameters.rotate)
     {
       const unsigned int axis = axis_called(turn.first);
@@ -28,13 +26,8 @@ dealii::Tensor<2, dim> rotation_of(const BodyMeshParameters &parameters)
                                  : "must be 'axis: degrees, ...', axes "
                                    "x, y, z");
       // Rotations are applied in the order in which they are written.
-      whole = rotation(axis, degrees) * whole;
+      result = rotation<dim>(axis, degrees) * result;
     }
-  // In 2D all rotations are about z, so the block of x and y is the complete rotation.
-  dealii::Tensor<2, dim> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = 0; j < dim; ++j)
-      result[i][j] = whole[i][j];
   return result;
 }
 

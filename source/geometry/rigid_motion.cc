@@ -33,12 +33,8 @@ RigidMotion<dim> rotation_about_axis(const std::vector<std::string> &words)
                                            "degrees");
   double degrees;
   from_text(words[2], degrees);
-  const auto       whole = rotation(axis, degrees);
   RigidMotion<dim> result;
-  // In 2D all rotations are about z, so the block of x and y is the complete rotation.
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = 0; j < dim; ++j)
-      result.Q[i][j] = whole[i][j];
+  result.Q = rotation<dim>(axis, degrees);
   if (words.size() == 3)
     return result;
   if (words[3] != "about")
@@ -50,20 +46,22 @@ RigidMotion<dim> rotation_about_axis(const std::vector<std::string> &words)
 }
 } // namespace
 
-dealii::Tensor<2, 3> rotation(const unsigned int axis, const double degrees)
+template <int dim>
+dealii::Tensor<2, dim> rotation(const unsigned int axis, const double degrees)
 {
-  const double         turn  = std::remainder(degrees, 360.);
-  const double         angle = turn * dealii::numbers::PI / 180.;
-  const bool           right = std::remainder(turn, 90.) == 0.;
-  const double         c     = right ? std::round(std::cos(angle)) : std::cos(angle);
-  const double         s     = right ? std::round(std::sin(angle)) : std::sin(angle);
-  const unsigned int   a = (axis + 1) % 3, b = (axis + 2) % 3;
-  dealii::Tensor<2, 3> result;
-  result[axis][axis] = 1.;
-  result[a][a]       = c;
-  result[b][b]       = c;
-  result[a][b]       = -s;
-  result[b][a]       = s;
+  AssertIndexRange(axis, 3);
+  const double       turn  = std::remainder(degrees, 360.);
+  const double       angle = turn * dealii::numbers::PI / 180.;
+  const bool         right = std::remainder(turn, 90.) == 0.;
+  const double       c     = right ? std::round(std::cos(angle)) : std::cos(angle);
+  const double       s     = right ? std::round(std::sin(angle)) : std::sin(angle);
+  const unsigned int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  // About z the block of x and y is the complete rotation.
+  auto result  = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+  result[a][a] = c;
+  result[b][b] = c;
+  result[a][b] = -s;
+  result[b][a] = s;
   return result;
 }
 
@@ -88,6 +86,8 @@ RigidMotion<dim> rigid_motion(const std::string &text)
   return result;
 }
 
-template RigidMotion<2> rigid_motion(const std::string &);
-template RigidMotion<3> rigid_motion(const std::string &);
+template dealii::Tensor<2, 2> rotation<2>(unsigned int, double);
+template dealii::Tensor<2, 3> rotation<3>(unsigned int, double);
+template RigidMotion<2>       rigid_motion(const std::string &);
+template RigidMotion<3>       rigid_motion(const std::string &);
 } // namespace snug::geometry

@@ -10,8 +10,9 @@ namespace snug::geometry {
 /// Return the rotation by @p degrees about a coordinate axis, counterclockwise if the axis points
 /// to the viewer. Multiples of 90 degrees are exact, because with the round-off of cos 90 faces
 /// would not lie exactly in coordinate planes, and an axis of revolution would not lie exactly at x
-/// = 0.
-dealii::Tensor<2, 3> rotation(unsigned int axis, double degrees);
+/// = 0. In 2D the axis is z (2).
+template <int dim>
+dealii::Tensor<2, dim> rotation(unsigned int axis, double degrees);
 
 /// A rigid motion x' = Q x + t, by default the identity.
 template <int dim>
