@@ -109,6 +109,14 @@ Form inside(const double lower, const double upper)
                   "must be above " + to_text(lower) + " and below " + to_text(upper));
 }
 
+std::string range_of(const Form &form)
+{
+  for (const std::string verb : {"must be ", "must lie "})
+    if (form.range.rfind(verb, 0) == 0)
+      return ", " + form.range.substr(verb.size());
+  return "";
+}
+
 Form per_dimension(Form form, const std::string &what)
 {
   form.per_dimension = what;

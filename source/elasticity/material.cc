@@ -8,7 +8,7 @@ void Material::declare(Entries &entries)
               "The Young's modulus, positive. Units: force/length^2.");
   entries.add("Poisson's ratio", poissons_ratio, inside(-1., 0.5),
               "The Poisson's ratio, above -1 and below 0.5.");
-  entries.add("Density", density, at_least(0., "must not be negative"),
+  entries.add("Density", density, at_least(0.),
               "The mass per volume, for gravity and the quantity mass. Units: mass/length^3.");
 }
 

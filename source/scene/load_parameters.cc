@@ -61,7 +61,7 @@ void LoadParameters::declare(Entries &entries, const std::string &key, const std
 
 void LoadCaseParameters::declare(Entries &entries)
 {
-  entries.add("Weight", weight, at_least(0., "must not be negative"),
+  entries.add("Weight", weight, at_least(0.),
               "The weight of this load case in the combined objective.");
   entries.add("Cases", cases, between(1., 1000.),
               "The number n of load cases that this section stands for: NAME-0 to NAME-(n-1). "

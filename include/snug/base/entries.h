@@ -70,7 +70,7 @@ const char *allowed_of()
   if constexpr (std::is_same_v<T, double>)
     return "a number";
   if constexpr (std::is_same_v<T, unsigned int>)
-    return "a whole number, 0 or larger";
+    return "a whole number";
   if constexpr (std::is_same_v<T, bool>)
     return "true or false";
   if constexpr (std::is_same_v<T, std::vector<double>>)
@@ -81,6 +81,9 @@ const char *allowed_of()
     return "names separated by commas";
   return "text";
 }
+
+/// Return the range of @p form to be appended to the values of a type: ", at least 1".
+std::string range_of(const Form &form);
 
 /// Functions that read, write and check the variable of an entry.
 struct Access
@@ -157,7 +160,7 @@ public:
   void add(const std::string &name, T &value, Form form, const std::string &meaning)
   {
     if (form.allowed.empty())
-      form.allowed = allowed_of<T>();
+      form.allowed = std::string(allowed_of<T>()) + range_of(form);
     if (std::is_same_v<T, bool>)
       form.choices = {"true", "false"};
     add(name, snug::access(value), form, meaning);

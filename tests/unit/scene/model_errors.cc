@@ -13,7 +13,7 @@ TEST(Errors, LoadCases)
   expect_error({"Load cases", "a/b", "letters, digits"});
   EXPECT_TRUE(
     has(error_of({"Load case closing/Weight=1"}), "unknown subsection 'Load case closing'"));
-  expect_error({own + "Weight", "-1", "must not be negative"}, two);
+  expect_error({own + "Weight", "-1", "must be at least 0"}, two);
   expect_error({own + "Gravity", "1, 2", "must have 3 numbers"}, two);
   expect_error({own + "Pressure", "top: 1", "'body.boundary'"}, two);
   expect_error({own + "Pressure", "punch.topp: 1", "did you mean 'top'?"}, two);
@@ -59,7 +59,7 @@ TEST(Errors, MaterialsAreInTheirRanges)
   expect_error({"Materials", "a, a", "'a' must not occur twice"});
   says("Material steel/Young's modulus=0", "must be positive");
   says("Material rubber/Poisson's ratio=0.5", "below 0.5");
-  says("Material rubber/Density=-1", "must not be negative");
+  says("Material rubber/Density=-1", "must be at least 0");
   EXPECT_TRUE(has(error_of({"Material tin/Density=1"}, two_regions), "unknown subsection"));
 }
 

@@ -48,7 +48,7 @@ TEST(Positions, ErrorsNameTheCase)
     has(error(own + "Position=punch: shift 0 0 sqrt(6-i)"), "Load case closing-7/Position"));
   EXPECT_TRUE(has(error(own + "Weight=3-i"), "Load case closing-4/Weight"));
   EXPECT_TRUE(has(error(own + "Position=punch: shift 0 0 2*j"), "Load case closing-0/Position"));
-  EXPECT_TRUE(has(error("Load case closing-2/Weight=-1"), "must not be negative"));
+  EXPECT_TRUE(has(error("Load case closing-2/Weight=-1"), "must be at least 0"));
 }
 
 TEST(Positions, CasesAreLoadCasesWithNumbers)
