@@ -1,6 +1,7 @@
 #include <snug/app/interrupt.h>
 #include <snug/app/search.h>
 #include <snug/geometry/imported_mesh.h>
+#include <snug/optimization/starts.h>
 #include <snug/scene/read_scene.h>
 
 #include <algorithm>
@@ -144,7 +145,11 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
   parameters.maximum_evaluations -= before.evaluations;
   parameters.objective_tolerance = std::max(parameters.objective_tolerance, tolerance);
 
-  auto result = optimization::minimize(record.journal.journaled(design_problem), parameters, hooks);
+  if (before.evaluations > 0)
+    parameters.starts = 1;
+
+  auto result =
+    optimization::minimize_from_starts(record.journal.journaled(design_problem), parameters, hooks);
   result.iterations += before.iterations;
   result.evaluations += before.evaluations;
   if (before.evaluations > 0)

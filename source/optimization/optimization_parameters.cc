@@ -34,6 +34,9 @@ void OptimizationParameters::declare(Entries &entries)
     "The constraints of the optimization.");
   entries.add("Maximum evaluations", maximum_evaluations, at_least(1),
               "The maximum number of evaluated designs.");
+  entries.add("Starts", starts, between(1., 1000.),
+              "The number of searches, of which the best result is taken. The first one begins at "
+              "'Initial', the others at random designs within the bounds, the same in each run.");
   entries.add(
     "Draw every", draw_every,
     "The number of iterations between designs whose fields are written. A value of 0 means "

@@ -36,6 +36,7 @@ struct OptimizationParameters
   /// response, or "load case.response", and its limit, see read_limit()
   std::vector<std::pair<std::string, std::string>> constraints;
   unsigned int                                     maximum_evaluations = 200;
+  unsigned int                                     starts              = 1; ///< searches
   unsigned int draw_every           = 0;    ///< iterations; 0: the first and last design
   double       objective_tolerance  = 1e-8; ///< relative, of the objective
   double       design_tolerance     = 1e-7; ///< relative to bound widths
