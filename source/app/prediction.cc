@@ -97,21 +97,26 @@ std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) 
   const auto         steps  = problem.shapes->first_steps();
   const auto        &solver = *problem.solver;
   std::map<const contact::Contact<dim> *, std::vector<Numbers>> by_area; // per variable
-  for (const unsigned int c : solver.positions())
-    for (unsigned int j = 0; j < n; ++j)
-      {
-        const auto areas_at = [&](const double h) {
-          auto moved = at.design;
-          moved[j] += h;
-          return solver.contact(c).areas(solver.surface().gather(problem.positions(moved)));
-        };
-        const double h     = area_step * steps[j];
-        auto         areas = areas_at(h);
-        const auto   other = areas_at(-h);
-        for (unsigned int i = 0; i < areas.size(); ++i)
-          areas[i] = (areas[i] - other[i]) / (2. * h);
-        by_area[&solver.contact(c)].push_back(std::move(areas));
-      }
+  const auto here = solver.surface().gather(problem.positions(at.design));
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      const double h        = area_step * steps[j];
+      const auto   velocity = solver.surface().gather(problem.shapes->column(j));
+      auto         after = here, before = here;
+      for (unsigned int i = 0; i < here.size(); ++i)
+        {
+          after[i] += h * velocity[i];
+          before[i] -= h * velocity[i];
+        }
+      for (const unsigned int c : solver.positions())
+        {
+          auto       areas = solver.contact(c).areas(after);
+          const auto other = solver.contact(c).areas(before);
+          for (unsigned int i = 0; i < areas.size(); ++i)
+            areas[i] = (areas[i] - other[i]) / (2. * h);
+          by_area[&solver.contact(c)].push_back(std::move(areas));
+        }
+    }
   std::vector<double> result;
   for (unsigned int c = 0; c < at.states.size(); ++c)
     {

@@ -217,15 +217,6 @@ public:
     return result;
   }
 
-  FaceField transpose(const Field &gradient) const override
-  {
-    FaceField result(face.surface().n_nodes());
-    for (const NodeWeights &row : rows)
-      for (const auto &weight : row.weights)
-        result[weight.first] += weight.second * gradient[row.node];
-    return result;
-  }
-
 private:
   /// The weights of the face nodes at one node of the body, multiplied by b.
   struct NodeWeights

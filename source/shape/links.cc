@@ -217,17 +217,6 @@ std::vector<double> Links::expand(const std::vector<double> &alpha) const
   return result;
 }
 
-/// The gradient with respect to a variable is the sum over the controls tied to the variable.
-std::vector<double> Links::collect(const std::vector<double> &gradient) const
-{
-  AssertDimension(gradient.size(), ties.size());
-  std::vector<double> result(size, 0.);
-  for (unsigned int i = 0; i < ties.size(); ++i)
-    if (ties[i].sign != 0.)
-      result[ties[i].variable] += ties[i].sign * gradient[i];
-  return result;
-}
-
 template std::vector<bool> fixed_points(const std::vector<Control<2>> &, const ShapeParameters &);
 template Links::Links(const std::vector<Control<2>> &, const ShapeParameters &);
 template std::vector<bool> fixed_points(const std::vector<Control<3>> &, const ShapeParameters &);

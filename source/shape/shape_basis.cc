@@ -79,49 +79,57 @@ typename Modes<dim>::Field Modes<dim>::apply(const std::vector<double> &alpha) c
   return moves;
 }
 
+/// The columns are cached, because V is constant and each apply() with a solved interior costs a
+/// linear solve. Only the nodes that move are stored, because most columns move few nodes.
 template <int dim>
-std::vector<double> Modes<dim>::transpose(const Field &gradient) const
+const typename ShapeBasis<dim>::Moves &ShapeBasis<dim>::moves(const unsigned int i) const
 {
-  AssertDimension(gradient.size(), n_nodes);
-  std::vector<double> result(n_variables, 0.);
+  if (const auto known = kept.find(i); known != kept.end())
+    return known->second;
+  std::vector<double> alpha(n_variables(), 0.);
+  alpha[i]         = 1.;
+  const auto field = apply(alpha);
+  n_nodes          = field.size();
+  Moves &result    = kept[i];
   for (unsigned int node = 0; node < n_nodes; ++node)
-    for (const auto &entry : row(node))
-      result[entry.first] += entry.second * gradient[node];
+    if (field[node].norm_square() > 0.)
+      result.emplace_back(node, field[node]);
   return result;
 }
 
 template <int dim>
-typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(unsigned int i) const
+typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(const unsigned int i) const
 {
-  // The columns are cached, because V is constant and each apply() with a solved interior costs a
-  // linear solve. Only the nodes that move are stored, because most columns move few nodes.
-  if (kept.count(i) == 0)
-    {
-      std::vector<double> alpha(n_variables(), 0.);
-      alpha[i]         = 1.;
-      const auto moves = apply(alpha);
-      auto      &of_i  = kept[i];
-      for (unsigned int node = 0; node < moves.size(); ++node)
-        if (moves[node].norm_square() > 0.)
-          of_i.emplace_back(node, moves[node]);
-      n_nodes = moves.size();
-    }
-  Field result(n_nodes);
-  for (const auto &entry : kept[i])
-    result[entry.first] = entry.second;
+  const auto &of_variable = moves(i);
+  Field       result(n_nodes);
+  for (const auto &[node, move] : of_variable)
+    result[node] = move;
+  return result;
+}
+
+template <int dim>
+std::vector<double> ShapeBasis<dim>::transpose(const Field &gradient) const
+{
+  std::vector<double> result(n_variables(), 0.);
+  for (unsigned int i = 0; i < result.size(); ++i)
+    for (const auto &[node, move] : moves(i))
+      if (node < gradient.size()) // nodes, or nodes and samples
+        result[i] += move * gradient[node];
+  dealii::Utilities::MPI::sum(result, communicator, result);
   return result;
 }
 
 template <int dim>
 Shape<dim>::Shape(const mesh::BodyMesh<dim> &mesh, Modes<dim> modes)
-  : mesh(mesh), modes(std::move(modes))
+  : ShapeBasis<dim>(mesh.communicator()), mesh(mesh), modes(std::move(modes))
 {}
 
 template <int dim>
 Shape<dim>::Shape(std::unique_ptr<ShapedFace<dim>> face,
                   Modes<dim>                       modes,
                   std::unique_ptr<Interior<dim>>   interior)
-  : mesh(face->mesh())
+  : ShapeBasis<dim>(face->mesh().communicator())
+  , mesh(face->mesh())
   , face(std::move(face))
   , modes(std::move(modes))
   , interior(std::move(interior))
@@ -151,36 +159,6 @@ typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) c
     for (const auto &sample : face->surface().samples())
       moves[sample.second] = on_face[sample.first];
   return moves;
-}
-
-/// V' = M'C'E'H' applies the transposes in reverse order.
-template <int dim>
-std::vector<double> Shape<dim>::transpose(const Field &gradient) const
-{
-  Field at_points = gradient;
-  Field on_face;
-  if (face)
-    {
-      on_face.resize(modes.n_nodes);
-      if (modes.n_nodes == face->surface().n_points())
-        for (const auto &sample : face->surface().samples())
-          std::swap(on_face[sample.first], at_points[sample.second]);
-      mesh.distribute_samples(at_points);
-    }
-  mesh.distribute_hanging(at_points);
-  if (face)
-    {
-      at_points.resize(mesh.n_local_nodes());
-      auto to_nodes = interior->transpose(at_points);
-      face->distribute_hanging(to_nodes);
-      std::copy_n(to_nodes.begin(), face->surface().n_nodes(), on_face.begin());
-      at_points = on_face;
-    }
-  // V' is linear, so the contributions of the ranks are summed at the end, where the vector has
-  // only one number per variable.
-  auto result = modes.transpose(at_points);
-  dealii::Utilities::MPI::sum(result, mesh.communicator(), result);
-  return result;
 }
 
 template <int dim>

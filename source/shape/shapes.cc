@@ -32,7 +32,7 @@ template <int dim>
 Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
                     const BodyNames                    &bodies,
                     const std::vector<ShapeParameters> &parameters)
-  : mesh(mesh)
+  : ShapeBasis<dim>(mesh.communicator()), mesh(mesh)
 {
   for (const auto &one : parameters)
     {
@@ -114,19 +114,6 @@ typename Shapes<dim>::Field Shapes<dim>::apply(const std::vector<double> &alpha)
       const Field moves = part.basis->apply(expanded(part, alpha));
       for (unsigned int node = 0; node < result.size(); ++node)
         result[node] += moves[node];
-    }
-  return result;
-}
-
-template <int dim>
-std::vector<double> Shapes<dim>::transpose(const Field &gradient) const
-{
-  std::vector<double> result;
-  for (const Part &part : parts)
-    {
-      // The result lists L'V' gradient shape by shape, in the order of the variables.
-      const auto values = part.links.collect(part.basis->transpose(gradient));
-      result.insert(result.end(), values.begin(), values.end());
     }
   return result;
 }

@@ -57,20 +57,6 @@ public:
     return result;
   }
 
-  FaceField transpose(const Field &gradient) const override
-  {
-    const Field u = solve(gradient);
-    FaceField   result(face.surface().n_nodes());
-    for (unsigned int node = 0; node < u.size(); ++node)
-      {
-        for (const auto &[surface_node, block] : couplings[node])
-          result[surface_node] -= u[node] * block;
-        if (roles.driver(node) != none)
-          result[roles.driver(node)] += gradient[node];
-      }
-    return result;
-  }
-
 private:
   using Block                        = dealii::Tensor<2, dim>;
   static constexpr unsigned int none = NodeRoles<dim>::none;

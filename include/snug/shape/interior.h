@@ -23,10 +23,6 @@ public:
   /// Return the displacements of the local nodes. @p moves is the same on all ranks.
   /// Collective.
   virtual Field extend(const FaceField &moves) const = 0;
-
-  /// Apply the transpose of extend(). @p gradient is zero at hanging nodes. The sum of @p gradient
-  /// over ranks is the whole gradient, and so is the sum of the results. Collective.
-  virtual FaceField transpose(const Field &gradient) const = 0;
 };
 
 /**
@@ -51,9 +47,8 @@ std::unique_ptr<Interior<dim>> linear_blending(const ShapedFace<dim> &face,
  * Benney, J. Appl. Mech. 70, 2003). With the projectors P of NodeRoles, A_ff stands for
  * P A_ff P, completed by a multiple of I - P.
  *
- * extend() and transpose() solve one linear system each, by conjugate gradients with algebraic
- * multigrid. The systems are solved to round-off, so that the two operators are adjoint. Both
- * functions throw a SolveError if conjugate gradients fail. Collective.
+ * extend() solves one linear system by conjugate gradients with algebraic multigrid, to round-off.
+ * It throws a SolveError if conjugate gradients fail. Collective.
  */
 template <int dim>
 std::unique_ptr<Interior<dim>> solved_interior(const ShapedFace<dim> &face,

@@ -45,9 +45,6 @@ public:
   /// Return L alpha.
   std::vector<double> expand(const std::vector<double> &alpha) const;
 
-  /// Return L' gradient.
-  std::vector<double> collect(const std::vector<double> &gradient) const;
-
 private:
   /// The relation control = sign * variable. The sign 0 means that the control is fixed.
   struct Tie

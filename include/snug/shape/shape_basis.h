@@ -47,8 +47,7 @@ struct Modes
   /// Only modes with controls set this function.
   std::function<Row(unsigned int i)> row_at_point = {};
 
-  Field               apply(const std::vector<double> &alpha) const;
-  std::vector<double> transpose(const Field &gradient) const;
+  Field apply(const std::vector<double> &alpha) const;
 };
 
 /**
@@ -70,16 +69,25 @@ public:
 
   /// Return V' gradient summed over ranks, which maps the gradient with respect to points to
   /// dJ/dalpha. The sum of @p gradient over ranks is the whole gradient. Collective.
-  virtual std::vector<double> transpose(const Field &gradient) const = 0;
+  std::vector<double> transpose(const Field &gradient) const;
 
   /// Return column i at the local points. The first call computes the column and caches it for
   /// all designs. Collective.
   Field column(unsigned int i) const;
 
+protected:
+  explicit ShapeBasis(MPI_Comm communicator) : communicator(communicator) {}
+
 private:
   /// The points that a variable moves, and the velocities of the points.
-  mutable std::map<unsigned int, std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>> kept;
-  mutable unsigned int n_nodes = 0;
+  using Moves = std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>;
+
+  /// Return the moves of variable @p i, which are computed at the first call. Collective.
+  const Moves &moves(unsigned int i) const;
+
+  MPI_Comm                              communicator;
+  mutable std::map<unsigned int, Moves> kept;
+  mutable unsigned int                  n_nodes = 0;
 };
 
 /// Return the positions of the local points at a design, reference + V alpha. Positions never
@@ -109,9 +117,8 @@ public:
         Modes<dim>                       modes,
         std::unique_ptr<Interior<dim>>   interior);
 
-  unsigned int        n_variables() const override { return modes.n_variables; }
-  Field               apply(const std::vector<double> &alpha) const override;
-  std::vector<double> transpose(const Field &gradient) const override;
+  unsigned int n_variables() const override { return modes.n_variables; }
+  Field        apply(const std::vector<double> &alpha) const override;
 
   const std::vector<Control<dim>> &controls() const { return modes.controls; }
 

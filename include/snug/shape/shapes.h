@@ -37,9 +37,8 @@ public:
          const BodyNames                    &bodies,
          const std::vector<ShapeParameters> &parameters);
 
-  unsigned int        n_variables() const override { return lower.size(); }
-  Field               apply(const std::vector<double> &alpha) const override;
-  std::vector<double> transpose(const Field &gradient) const override;
+  unsigned int n_variables() const override { return lower.size(); }
+  Field        apply(const std::vector<double> &alpha) const override;
 
   /// Return (body, boundary) of the faces that are shaped, ascending. Collective.
   std::vector<std::pair<unsigned int, unsigned int>> faces() const;
