@@ -16,6 +16,9 @@ namespace {
 /// Moves of slave nodes off their pairing below this value, in faces, need no new contact search.
 const double unmoved = 1e-3;
 
+/// Moves of round-off alone, in faces.
+const double no_drift = 1e-12;
+
 /// Return everything that decides the numbers of a run: the scene without the output directory and
 /// the maximum of evaluations, and the contents of mesh files instead of their paths.
 std::string fingerprint(scene::Scene scene)
@@ -163,10 +166,12 @@ template <int dim>
 bool Search<dim>::update_pairing(const OptimizationResult &result)
 {
   const auto &most = problem.scene.optimization.maximum_evaluations;
-  if (!result.success || result.evaluations >= most)
+  // A search also ends where the master side has moved away from slave nodes.
+  const bool has_failed = result.end == optimization::StopReason::no_value;
+  if ((!result.success && !has_failed) || result.evaluations >= most)
     return false;
   const double drift = problem.drift(result.x);
-  if (drift < unmoved)
+  if (drift < (has_failed ? no_drift : unmoved))
     return false;
   finish_first();
   problem.context.out() << "new contact search: the design moved slave nodes away from their "

@@ -58,12 +58,15 @@ void Contact<dim>::measure_pairing(const Field &positions)
   const auto paired   = rows(positions);
   const auto sizes    = node_face_sizes(surface, positions);
   const auto in_space = placed.to_space(positions);
+  paired_rows.assign(paired.size(), {});
   paired_offsets.clear();
   gaps.assign(groups.size(), {});
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
       const auto &[p, slave, of] = row_places[i];
       paired_offsets.push_back(slave_minus_master(paired[i], in_space));
+      if (!chosen[p].obstacle && chosen[p].parameters.method == Method::mortar)
+        paired_rows[i] = paired[i];
       double gap = paired[i].gap;
       // An obstacle that moves into a body is a load, not a misplaced body.
       if (chosen[p].obstacle)
@@ -244,7 +247,9 @@ std::vector<double> Contact<dim>::pairing_drifts(const Field                 &po
   std::vector<double> result;
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      const auto offset             = slave_minus_master(rows[i], in_space);
+      // Mortar rows follow the positions, so their own offset is always that of opposite points.
+      const bool is_mortar = !paired_rows[i].coefficients.empty();
+      const auto offset    = slave_minus_master(is_mortar ? paired_rows[i] : rows[i], in_space);
       const auto &[pair, slave, of] = row_places[i];
       const auto &off_face          = rows[i].off_face;
       // Where the foot point follows the node, the offset is along the normal, except for fixed

@@ -126,8 +126,9 @@ public:
                                        const Field                 &displacement) const;
   /// Return how far the slave nodes have moved along the master off the points they were paired
   /// with. The foot points of nodal rows follow the nodes within their faces, so only the distance
-  /// off the face counts for these rows. For obstacles the value is 0, because the closest point
-  /// follows the node.
+  /// off the face counts for these rows. Mortar rows integrate over the master faces found by the
+  /// contact search, and their value is the motion along these faces. For obstacles the value is 0,
+  /// because the closest point follows the node.
   std::vector<double> pairing_drifts(const Field                 &positions,
                                      const std::vector<Row<dim>> &rows) const;
   /// @}
@@ -152,6 +153,7 @@ private:
   std::vector<Group>               groups;      ///< one per pair
   std::vector<RowPlace>            row_places;
   std::vector<DependentMultiplier> shared;
+  std::vector<Row<dim>>            paired_rows;    ///< of mortar pairs, at the pairing; else empty
   Field                            paired_offsets; ///< one per row, at the pairing
   std::vector<PairedGaps>          gaps;           ///< one per pair, at the pairing
 
