@@ -2,9 +2,11 @@
 #include <snug/geometry/formula.h>
 
 #include <deal.II/base/function_parser.h>
+#include <deal.II/base/numbers.h>
 
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 namespace snug::geometry {
@@ -65,6 +67,9 @@ double second_difference(const Function &f, const double h)
     sum += weights[k - 1] * (f(k * h) + f(-(k * h)));
   return sum / (180. * h * h);
 }
+
+/// Constants that formulas may contain.
+const std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
 } // namespace
 
 std::optional<double> constant_value(const std::string &text)
@@ -74,7 +79,7 @@ std::optional<double> constant_value(const std::string &text)
     {
       const SilentErrors guard;
       // The parser needs a variable. Its name must not occur in users' formulas.
-      parser.initialize("no_variable", text, {});
+      parser.initialize("no_variable", text, constants);
       const double value = parser.value(dealii::Point<1>());
       return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
     }
@@ -92,7 +97,7 @@ Formula<dim>::Formula(const std::string &entry, const std::string &text)
   try
     {
       const SilentErrors guard;
-      parser->initialize(variables, text, {});
+      parser->initialize(variables, text, constants);
       // The formula is evaluated once, because muParser finds unknown names only on evaluation.
       parser->value(dealii::Point<dim>());
     }

@@ -55,6 +55,13 @@ std::string value_in_case(const std::string &value, const unsigned int i)
   return result + word_in_case(word, i);
 }
 
+/// Return what is appended to the name of a load case for case @p i of @p n. One case is the load
+/// case itself.
+std::string suffix(const unsigned int i, const unsigned int n)
+{
+  return n == 1 ? "" : "-" + to_text(i);
+}
+
 /// Return the number of cases of each load case whose section has the entry Cases.
 std::map<std::string, unsigned int> numbers_of_cases(const std::vector<Statement> &statements)
 {
@@ -77,9 +84,6 @@ std::map<std::string, unsigned int> numbers_of_cases(const std::vector<Statement
                    "must be an integer between 1 and " + to_text(most_cases));
         result[statement.section.substr(section_prefix.size())] = n;
       }
-  // One case is the load case itself.
-  for (auto of = result.begin(); of != result.end();)
-    of = of->second == 1 ? result.erase(of) : std::next(of);
   return result;
 }
 } // namespace
@@ -96,7 +100,7 @@ std::vector<Statement> with_cases(const std::vector<Statement> &statements)
       if (is_load_case && of != numbers.end())
         {
           for (unsigned int i = 0; i < of->second && statement.name != cases_entry; ++i)
-            result.push_back({statement.section + "-" + to_text(i), statement.name,
+            result.push_back({statement.section + suffix(i, of->second), statement.name,
                               value_in_case(statement.value, i), statement.origin});
           continue;
         }
@@ -108,7 +112,7 @@ std::vector<Statement> with_cases(const std::vector<Statement> &statements)
               names.push_back(name);
             else
               for (unsigned int i = 0; i < found->second; ++i)
-                names.push_back(name + "-" + to_text(i));
+                names.push_back(name + suffix(i, found->second));
           statement.value = to_text(names);
         }
       result.push_back(statement);

@@ -74,6 +74,17 @@ TEST(Positions, CasesAreLoadCasesWithNumbers)
   EXPECT_EQ(value("Load case b", "Force"), "none");
 }
 
+TEST(Positions, OneCaseIsTheLoadCaseItself)
+{
+  const auto statements = scene::with_cases({{"", "Load cases", "a", "1"},
+                                             {"Load case a", "Cases", "1", "2"},
+                                             {"Load case a", "Weight", "2+cos(i*pi)", "3"}});
+  ASSERT_EQ(statements.size(), 2u);
+  EXPECT_EQ(statements[0].value, "a");
+  EXPECT_EQ(statements[1].section, "Load case a");
+  EXPECT_EQ(statements[1].value, "3");
+}
+
 TEST(Combinations, LimitsOfMaximaAreUpperLimits)
 {
   const std::vector<std::string> two   = {"Load cases=closing, opening"};
