@@ -235,6 +235,13 @@ def bush(result, _):
             ("largest p", push["max_pressure"], 50.)]
 
 
+def block_pair(result, other_way):
+    """Minimum mass at a peak, and minimum peak at that mass, have the same design."""
+    designs = [run.summary["optimization"]["design"] for run in (result, other_way)]
+    return [("peak", result.state["responses"]["peak"], other_way.state["responses"]["peak"]),
+            *((f"height {i}", *heights) for i, heights in enumerate(zip(*designs)))]
+
+
 def leaf_spring(result, _):
     """Masses are as they were; the stress is that of 40 cells along the upper leaf and 2 across."""
     start = result.summary["initial_state"]["responses"]
