@@ -3,6 +3,7 @@
 #include <snug/optimization/step_model.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <nlopt.hpp>
@@ -28,31 +29,37 @@ struct Subproblem
   double                       unit, scale, value; ///< the objective is (f - value) / scale
   Vector                       slopes;             ///< of the constraints at z = 0
   Vector                       allowed;            ///< violations
-  /// @name Where variables enter linearly: the best of all steps that NLopt tries, after a repair.
+  /// @name Where variables enter linearly: the best of all steps that NLopt tries, after settle().
   /// NLopt itself returns the best step that meets all constraints, which may be the first one,
   /// because it meets constraints with kinks to about 1e-6 only.
   /// @{
-  std::function<void(Vector &)> repair         = {};
+  std::function<void(Vector &)> settle         = {};
   mutable Vector                best           = {};
   mutable double                best_objective = std::numeric_limits<double>::infinity();
   /// @}
 
-  void try_repaired(const double *z) const
+  Vector settled(const double *z) const
   {
     Vector d(z, z + model.size());
     for (double &entry : d)
       entry *= unit;
-    repair(d);
-    const auto &there = model(d);
+    settle(d);
+    for (double &entry : d)
+      entry /= unit;
+    return d;
+  }
+
+  void try_settled(const double *z) const
+  {
+    const auto  step  = settled(z);
+    const auto &there = at(step.data());
     for (unsigned int j = 0; j < relations.size(); ++j)
-      if (optimization::violation(relations[j], there.constraints[j]) > is_met)
+      if (optimization::violation(relations[j], there.constraints[j]) > allowed[j] + is_met)
         return;
     if (!(there.objective < best_objective))
       return;
     best_objective = there.objective;
-    best           = d;
-    for (double &entry : best)
-      entry /= unit;
+    best           = step;
   }
 
   const ScaledProblem::Prediction &at(const double *z) const
@@ -66,8 +73,8 @@ struct Subproblem
   static double objective(unsigned int n, const double *z, double *gradient, void *data)
   {
     const auto &self = *static_cast<Subproblem *>(data);
-    if (self.repair)
-      self.try_repaired(z);
+    if (self.settle)
+      self.try_settled(z);
     const auto &predicted = self.at(z);
     if (gradient != nullptr)
       for (unsigned int i = 0; i < n; ++i)
@@ -93,6 +100,14 @@ struct Subproblem
             for (unsigned int i = 0; i < n; ++i)
               *jacobian++ = predicted.jacobian[j][i] * self.unit / self.slopes[j];
         }
+  }
+
+  Vector violations(const Vector &z) const
+  {
+    Vector result = at(z.data()).constraints;
+    for (unsigned int j = 0; j < relations.size(); ++j)
+      result[j] = optimization::violation(relations[j], result[j]);
+    return result;
   }
 
   /// Half the sum of the squares of violations.
@@ -187,19 +202,20 @@ Vector StepModel::minimizer(const double radius) const
   return d;
 }
 
-/// Change the variables of @p d that enter linearly such that the constraints in which they occur
-/// are met.
-void StepModel::repair(Vector &d) const
+/// Set the variables of @p d that enter linearly to the least values at which the constraints that
+/// they relax are met. Objective and other constraints grow with these variables.
+void StepModel::settle(Vector &d) const
 {
   const auto &there = (*this)(d);
   const auto &c     = there.constraints;
   for (unsigned int i = problem.n_nonlinear(); i < size(); ++i)
     {
-      double change = 0.;
+      double change = -std::numeric_limits<double>::infinity();
       for (unsigned int j = 0; j < c.size(); ++j)
-        if (const double slope = there.jacobian[j][i]; c[j] > 0. && slope < 0.)
+        if (const double slope = there.jacobian[j][i]; slope < 0.)
           change = std::max(change, -c[j] / slope);
-      d[i] += change;
+      if (std::isfinite(change))
+        d[i] += change;
     }
 }
 
@@ -238,29 +254,28 @@ Vector StepModel::minimize_from(const Vector &d, const double radius, const doub
   if (n_other > 0)
     best.add_inequality_mconstraint(&Subproblem::constraints<Relation::at_most>, &subproblem,
                                     Vector(n_other, 1e-12));
-  const auto violations = [&] {
-    const auto &there  = subproblem.at(z.data());
-    Vector      result = there.constraints;
-    for (unsigned int j = 0; j < relations.size(); ++j)
-      result[j] = violation(relations[j], result[j]);
-    return result;
-  };
   if (problem.n_nonlinear() < size())
-    subproblem.repair = [this](Vector &step) { repair(step); };
-  minimize(best, z);
-  if (!subproblem.best.empty())
-    z = subproblem.best;
-  if (largest(violations()) > is_met)
+    subproblem.settle = [this](Vector &step) { settle(step); };
+  const auto minimize_and_settle = [&] {
+    minimize(best, z);
+    if (!subproblem.best.empty())
+      z = subproblem.best;
+  };
+  minimize_and_settle();
+  if (largest(subproblem.violations(z)) > is_met)
     {
       z.assign(size(), 0.);
       auto nearest = optimizer(lower, upper);
       nearest.set_min_objective(&Subproblem::squared_violation, &subproblem);
       minimize(nearest, z);
-      subproblem.allowed = violations();
+      // Violations of terms may be smaller than those of their maximum, which is what counts.
+      if (subproblem.settle)
+        z = subproblem.settled(z.data());
+      subproblem.allowed = subproblem.violations(z);
       for (double &allowed : subproblem.allowed)
         if (std::abs(allowed) <= is_met)
           allowed = 0.;
-      minimize(best, z);
+      minimize_and_settle();
     }
   for (unsigned int i = 0; i < size(); ++i)
     z[i] = std::clamp(z[i], lower[i], upper[i]) * unit;

@@ -42,7 +42,7 @@ private:
   mutable std::vector<double>       last; ///< step of the last prediction; empty: none
   mutable ScaledProblem::Prediction predicted;
 
-  void                repair(std::vector<double> &d) const;
+  void                settle(std::vector<double> &d) const;
   std::vector<double> minimize_from(const std::vector<double> &d, double radius, double unit) const;
   void box(double radius, std::vector<double> &lower, std::vector<double> &upper) const;
 };

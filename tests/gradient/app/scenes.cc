@@ -30,6 +30,8 @@ const double energy_tolerance     = 1e-8;
 const double difference_step = 1e-4;
 const double design_step     = 0.05;
 
+const std::size_t most_load_cases = 4;
+
 struct Case
 {
   std::string     file;
@@ -63,12 +65,17 @@ void coarsen(scene::Scene &scene)
   for (auto &body : scene.bodies)
     {
       if (scene.dimension == 3)
-        for (unsigned int &n : body.mesh.cells)
-          n = std::min(n, 4u);
+        {
+          for (unsigned int &n : body.mesh.cells)
+            n = std::min(n, 4u);
+          body.mesh.warp.clear(); // the grading of finer meshes
+        }
       for (unsigned int &n : body.mesh.round_cells)
         n = std::max(n / 4, 1u);
       body.mesh.local_refinements -= std::min(body.mesh.local_refinements, 3u);
     }
+  if (scene.load_cases.size() > most_load_cases)
+    scene.load_cases.resize(most_load_cases);
 }
 
 scene::Scene coarse_scene(const Case &given)
@@ -78,7 +85,8 @@ scene::Scene coarse_scene(const Case &given)
                                         contents(given.file),
                                         {},
                                         "gradient.app.np" + std::to_string(ranks) + "/" +
-                                          std::filesystem::path(given.file).stem().string()});
+                                          std::filesystem::path(given.file).stem().string(),
+                                        contents});
   coarsen(scene);
   // those of degree 2 are slender: round-off does not let them reach 1e-11
   scene.state_tolerance = scene.degree == 1 ? 1e-11 : 1e-10;

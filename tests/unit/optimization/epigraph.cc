@@ -138,29 +138,42 @@ TEST(Epigraph, MinimizesARange)
   EXPECT_NEAR(result.objective_final, 0.15, 1e-8);
 }
 
-/// min y with max(x - y, -x - y) <= -1: y = 1 at x = 0.
-TEST(Epigraph, LimitsAMaximum)
+/// min max(y, -y) with max(x - y, -x - y) <= -1: y = 1 at x = 0.
+DesignProblem limited_maximum(const Vector &start, const double length)
 {
   DesignProblem problem;
-  problem.start             = {3., 5.};
-  problem.lower             = {-10., -10.};
-  problem.upper             = {10., 10.};
-  problem.lengths           = {1., 1.};
-  problem.relations         = {Relation::at_most, Relation::term, Relation::term};
-  problem.constraint_scales = {1., 1., 1.};
-  problem.maxima            = {{0, 1, 3}};
+  problem.start   = start;
+  problem.lower   = {-10., -10.};
+  problem.upper   = {10., 10.};
+  problem.lengths = {length, length};
+  problem.relations.assign(5, Relation::term);
+  problem.relations[0]      = Relation::at_most;
+  problem.constraint_scales = {1., 1., 1., 1., 1.};
+  problem.maxima            = {{-1, 3, 5}, {0, 1, 3}};
   problem.evaluate          = [](const Vector &x) {
     Evaluation result;
-    result.objective  = x[1] * x[1];
-    result.gradient   = {0., 2. * x[1]};
+    result.objective  = std::abs(x[1]);
+    result.gradient   = {0., x[1] < 0. ? -1. : 1.};
     const double left = -x[0] - x[1], right = x[0] - x[1];
-    result.constraints = {std::max(left, right) + 1., left, right};
-    result.jacobian    = {{left >= right ? -1. : 1., -1.}, {-1., -1.}, {1., -1.}};
+    result.constraints = {std::max(left, right) + 1., left, right, x[1], -x[1]};
+    result.jacobian = {{left >= right ? -1. : 1., -1.}, {-1., -1.}, {1., -1.}, {0., 1.}, {0., -1.}};
     return result;
   };
-  const auto result = minimize(problem, {});
-  EXPECT_TRUE(result.success) << result.stop_reason;
-  EXPECT_NEAR(result.x[0], 0., 1e-6);
-  EXPECT_NEAR(result.x[1], 1., 1e-6);
+  return problem;
+}
+
+TEST(Epigraph, LimitsAMaximum)
+{
+  // The last starts are so far from the limit that no step within the trust region meets it.
+  for (const auto &[start, length] : {std::make_pair(Vector{3., 5.}, 1.),
+                                      {Vector{3., -5.}, 0.5},
+                                      {Vector{-2., -1.}, 0.1},
+                                      {Vector{6., -9.}, 0.2}})
+    {
+      const auto result = minimize(limited_maximum(start, length), {});
+      EXPECT_TRUE(result.success) << start[0] << ' ' << result.stop_reason;
+      EXPECT_NEAR(result.x[0], 0., 1e-6) << start[0];
+      EXPECT_NEAR(result.x[1], 1., 1e-6) << start[0];
+    }
 }
 } // namespace
