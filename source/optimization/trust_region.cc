@@ -78,11 +78,11 @@ StopReason TrustRegion::run()
 TrustRegion::Trial TrustRegion::proposed(const StepModel &model)
 {
   Trial       trial;
-  const auto &at   = *progress.iterate();
-  trial.d          = model.minimizer(radius);
-  const auto there = model(trial.d);
-  const auto here  = problem.constraints(at.evaluation);
-  const auto mu    = model.multipliers(trial.d, radius);
+  const auto &at    = *progress.iterate();
+  trial.d           = model.minimizer(radius);
+  const auto &there = model(trial.d);
+  const auto  here  = problem.constraints(at.evaluation);
+  const auto  mu    = model.multipliers(trial.d, radius);
   for (unsigned int j = 0; j < weights.size(); ++j)
     weights[j] =
       std::max({above_multiplier * std::abs(mu[j]), forgetting * weights[j], least_weight});
@@ -175,10 +175,10 @@ StopReason TrustRegion::accept(const StepModel &model, const Trial &trial)
 /// Update B by the change of the gradient of the Lagrangian that the prediction has not.
 void TrustRegion::learn(const StepModel &model, const Trial &trial)
 {
-  const auto mu        = problem.multipliers(*trial.point);
-  const auto predicted = model(trial.d);
-  const auto Bd        = hessian.times(trial.d);
-  auto       y         = problem.gradient(*trial.point);
+  const auto  mu        = problem.multipliers(*trial.point);
+  const auto &predicted = model(trial.d);
+  const auto  Bd        = hessian.times(trial.d);
+  auto        y         = problem.gradient(*trial.point);
   add(y, -1., predicted.gradient);
   add(y, 1., Bd); // which the model has added
   const auto jacobian = problem.jacobian(*trial.point);
