@@ -202,8 +202,8 @@ Vector StepModel::minimizer(const double radius) const
   return d;
 }
 
-/// Set the variables of @p d that enter linearly to the least values at which the constraints that
-/// they relax are met. Objective and other constraints grow with these variables.
+/// Set the variables of @p d that enter linearly to the smallest values at which the constraints
+/// that they relax are met. The objective and the other constraints increase with these variables.
 void StepModel::settle(Vector &d) const
 {
   const auto &there = (*this)(d);

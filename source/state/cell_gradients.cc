@@ -7,7 +7,7 @@ template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
 /// Add values at nodes to the gradient. Hanging nodes count as independent positions, here and
-/// below, because ShapeBasis::transpose() passes their share on to the masters.
+/// below, because the columns of the shape basis contain the displacements of hanging nodes.
 template <int dim>
 void add_to_nodes(const std::vector<unsigned int>     &nodes,
                   const Nodes<dim>                    &values,

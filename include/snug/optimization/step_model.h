@@ -16,7 +16,8 @@ public:
             const ScaledProblem::Point &at,
             const SecantHessian        &hessian);
 
-  /// Objective, constraints and their derivatives at @p d.
+  /// Return the objective, the constraints and their derivatives at @p d. The reference is valid
+  /// until the next call with another step.
   const ScaledProblem::Prediction &operator()(const std::vector<double> &d) const;
 
   /**

@@ -30,6 +30,7 @@ const double energy_tolerance     = 1e-8;
 const double difference_step = 1e-4;
 const double design_step     = 0.05;
 
+/// of a scene that are checked. Ten or more take most of the time of the test.
 const std::size_t most_load_cases = 4;
 
 struct Case
