@@ -12,7 +12,7 @@ const double dependence = 1e-8;
 } // namespace
 
 /// Every rank has the whole matrix. Only a factorization by a group communicates in solve().
-CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
+CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::FreeRows &free)
 {
   CsrMatrix   matrix          = space.gram(free);
   const auto &representatives = space.structure().representatives;
@@ -30,7 +30,12 @@ CoarseProblem::CoarseProblem(const CoarseSpace &space, const qp::RowSet &free)
     return;
   // Compute G_M G_M' W from the rows, because the small numbers G_M' W are lost in the rounding of
   // the values of G_M G_M'.
-  const auto image = [&]() { return space.multiply(space.transpose_multiply(W, &free), &free); };
+  const auto image = [&]() {
+    auto y = space.transpose_multiply(W);
+    free.transpose().reduce(y);
+    free.expand(y);
+    return space.multiply(y);
+  };
   // W - A^-1 G_M G_M' W and N span all vectors (I - A^-1 G_M G_M') x. Alternating steps along W and
   // with A^-1 are therefore exact after the first steps, except for rounding.
   qp::MultiVector solved(W.n_rows(), W.n_columns());
@@ -50,12 +55,7 @@ qp::MultiVector CoarseProblem::solve(const qp::MultiVector &c, const unsigned in
   // if c is in the range of G_M G_M'. For another c, of loads that M cannot hold, the solution
   // lacks a combination of N_f. Such a result serves only to find out that the loads are not
   // balanced.
-  alpha.add(-1., kernel_part(alpha));
+  alpha.add(-1., times(N, transpose_times(N, alpha)));
   return alpha;
-}
-
-qp::MultiVector CoarseProblem::kernel_part(const qp::MultiVector &c) const
-{
-  return times(N, transpose_times(N, c));
 }
 } // namespace snug::feti

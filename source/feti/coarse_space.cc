@@ -65,7 +65,7 @@ CoarseStructure::CoarseStructure(const RowLayout   &the_layout,
 void CoarseStructure::build_pattern()
 {
   const unsigned int m = table.n_modes, n_subdomains = narrow<unsigned int>(table.body.size());
-  std::set<Coupling> couplings, bounded_couplings;
+  std::set<Coupling> couplings, contact_couplings;
   // Subdomains without rows also need their diagonal block.
   for (unsigned int s = 0; s < n_subdomains; ++s)
     couplings.insert({s, s});
@@ -77,8 +77,8 @@ void CoarseStructure::build_pattern()
           couplings.insert(pair);
           // Contact rows change with the active set, so only their entries are summed for each
           // face.
-          if (layout.bounded()[row])
-            bounded_couplings.insert(pair);
+          if (layout.contact_rows()[row])
+            contact_couplings.insert(pair);
         }
   // N_f (N_f'N_f)^-1 N_f' couples the representatives of all bodies, because a motion of the kernel
   // may move several bodies.
@@ -92,10 +92,10 @@ void CoarseStructure::build_pattern()
       for (unsigned int j = 0; j < m; ++j)
         rows[pair.row * m + i].push_back(pair.column * m + j);
   gram = CsrMatrix::from_rows(rows, table.n_kernel());
-  for (const Coupling &pair : unite(bounded_couplings, layout.communicator()))
+  for (const Coupling &pair : unite(contact_couplings, layout.communicator()))
     for (unsigned int i = 0; i < m; ++i)
       for (unsigned int j = 0; j < m; ++j)
-        bounded_places.push_back(gram.position(pair.row * m + i, pair.column * m + j));
+        contact_places.push_back(gram.position(pair.row * m + i, pair.column * m + j));
 }
 
 void CoarseStructure::sum(qp::MultiVector &contributions) const
@@ -124,14 +124,17 @@ CoarseSpace::CoarseSpace(const CoarseStructure              &structure,
       blocks[pattern.block_of_entry[e] * m + i] += G_entries[e * (offset + m) + offset + i];
   // The contribution of the equality rows is the same for all faces of a design.
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (!layout.bounded()[row])
-      add_row(row, equality_gram);
+    if (!layout.contact_rows()[row])
+      add_column(row, &blocks[std::size_t(pattern.block_start[row]) * m], equality_gram);
   sum_over_ranks(equality_gram, layout.communicator());
   set_body_modes(systems);
 }
 
-/// Add g g' of the column g of G of @p row to @p values, which are in the pattern's order.
-void CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
+/// Add g g' to @p values, which are in the pattern's order. @p column holds g in the blocks of
+/// @p row.
+void CoarseSpace::add_column(const unsigned int   row,
+                             const double        *column,
+                             std::vector<double> &values) const
 {
   const unsigned int m          = pattern.table.n_modes;
   const auto        &start      = pattern.block_start;
@@ -146,8 +149,30 @@ void CoarseSpace::add_row(unsigned int row, std::vector<double> &values) const
         double            *to     = &values[pattern.gram.position(first, subdomains[b] * m)];
         for (unsigned int i = 0; i < m; ++i, to += length)
           for (unsigned int j = 0; j < m; ++j)
-            to[j] += blocks[a * m + i] * blocks[b * m + j];
+            to[j] += column[(a - start[row]) * m + i] * column[(b - start[row]) * m + j];
       }
+}
+
+/// Return the sum of the columns of G of the rows of a contact with the given factors, in the
+/// blocks of its normal row. All rows of a contact have entries at the same nodes, hence the same
+/// blocks.
+std::vector<double> CoarseSpace::combined_column(const qp::FrictionCone      &cone,
+                                                 const double                 of_normal,
+                                                 const std::array<double, 2> &of_tangents) const
+{
+  const unsigned int  m      = pattern.table.n_modes;
+  const auto         &start  = pattern.block_start;
+  const unsigned int  length = (start[cone.normal + 1] - start[cone.normal]) * m;
+  std::vector<double> column(length);
+  const auto          add = [&](const double factor, const unsigned int row) {
+    AssertDimension((start[row + 1] - start[row]) * m, length);
+    for (unsigned int i = 0; i < length; ++i)
+      column[i] += factor * blocks[std::size_t(start[row]) * m + i];
+  };
+  add(of_normal, cone.normal);
+  for (unsigned int t = 0; t < cone.n_tangents; ++t)
+    add(of_tangents[t], cone.tangents[t]);
+  return column;
 }
 
 /// Each subdomain has its own orthonormal R. Z_s combines the columns of R to motions of the whole
@@ -198,16 +223,15 @@ CoarseSpace::NearKernel CoarseSpace::near_kernel(const CsrMatrix &A) const
 }
 
 /// Each rank adds the products of its owned rows. The sum makes coarse vectors equal on all ranks.
-qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet *free) const
+qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x) const
 {
   const unsigned int m          = pattern.table.n_modes;
   const auto        &start      = pattern.block_start;
   const auto        &subdomains = pattern.block_subdomain;
   qp::MultiVector    c(pattern.table.n_kernel(), x.n_columns());
-  const auto is_free = [&](const unsigned int row) { return free == nullptr || (*free)[row]; };
   if (x.n_columns() == 1)
     for (unsigned int row = 0; row < layout.n_owned(); ++row)
-      for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
+      for (unsigned int b = start[row]; b < start[row + 1]; ++b)
         {
           const double *G   = &blocks[std::size_t(b) * m];
           double       *c_s = c.column(0) + subdomains[b] * m;
@@ -220,7 +244,7 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet
         const Columns from(x, k);
         Columns       to(c, k);
         for (unsigned int row = 0; row < layout.n_owned(); ++row)
-          for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
+          for (unsigned int b = start[row]; b < start[row + 1]; ++b)
             for (unsigned int i = 0; i < m; ++i)
               Columns::add(blocks[std::size_t(b) * m + i], from[row], to[subdomains[b] * m + i]);
         to.unpack(c);
@@ -230,17 +254,15 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x, const qp::RowSet
 }
 
 /// No communication is needed: alpha is on all ranks, and G is needed on owned rows only.
-qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
-                                                const qp::RowSet      *free) const
+qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha) const
 {
   const unsigned int m          = pattern.table.n_modes;
   const auto        &start      = pattern.block_start;
   const auto        &subdomains = pattern.block_subdomain;
   qp::MultiVector    y(layout.n_owned(), alpha.n_columns());
-  const auto is_free = [&](const unsigned int row) { return free == nullptr || (*free)[row]; };
   if (alpha.n_columns() == 1)
     for (unsigned int row = 0; row < layout.n_owned(); ++row)
-      for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
+      for (unsigned int b = start[row]; b < start[row + 1]; ++b)
         {
           const double *G       = &blocks[std::size_t(b) * m];
           const double *alpha_s = alpha.column(0) + subdomains[b] * m;
@@ -253,7 +275,7 @@ qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
         const Columns from(alpha, k);
         Columns       to(y, k);
         for (unsigned int row = 0; row < layout.n_owned(); ++row)
-          for (unsigned int b = start[row]; is_free(row) && b < start[row + 1]; ++b)
+          for (unsigned int b = start[row]; b < start[row + 1]; ++b)
             for (unsigned int i = 0; i < m; ++i)
               Columns::add(blocks[std::size_t(b) * m + i], from[subdomains[b] * m + i], to[row]);
         to.unpack(y);
@@ -261,21 +283,35 @@ qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha,
   return y;
 }
 
-CsrMatrix CoarseSpace::gram(const qp::RowSet &free) const
+CsrMatrix CoarseSpace::gram(const qp::FreeRows &free) const
 {
   std::vector<double> contact(equality_gram.size(), 0.);
+  auto                unit_columns = free.rows();
+  for (const qp::Slip &slip : free.slips())
+    {
+      const auto  &cone = slip.cone;
+      const double mu   = free.is_transposed() ? 0. : cone.coefficient;
+      add_column(
+        cone.normal,
+        combined_column(cone, 1., {{mu * slip.direction[0], mu * slip.direction[1]}}).data(),
+        contact);
+      if (cone.n_tangents == 2)
+        add_column(cone.normal, combined_column(cone, 0., slip.across()).data(), contact);
+      unit_columns[cone.normal] = 0;
+    }
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (layout.bounded()[row] && free[row])
-      add_row(row, contact);
+    if (layout.contact_rows()[row] && unit_columns[row])
+      add_column(row, &blocks[std::size_t(pattern.block_start[row]) * pattern.table.n_modes],
+                 contact);
   // Send only the entries of contact rows, because they are few in large models.
   std::vector<double> packed;
-  for (const std::size_t place : pattern.bounded_places)
+  for (const std::size_t place : pattern.contact_places)
     packed.push_back(contact[place]);
   sum_over_ranks(packed, layout.communicator());
   CsrMatrix result = pattern.gram;
   result.values    = equality_gram;
   for (std::size_t i = 0; i < packed.size(); ++i)
-    result.values[pattern.bounded_places[i]] += packed[i];
+    result.values[pattern.contact_places[i]] += packed[i];
   return result;
 }
 

@@ -87,7 +87,7 @@ void DeflationStructure::count_subdomains()
   const RowLayout &layout = coarse.layout;
   qp::MultiVector  owned(layout.n_owned(), 2);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (!layout.bounded()[row])
+    if (!layout.contact_rows()[row])
       {
         const auto &unknowns = layout.entry_unknowns();
         const auto  begin = layout.entry_start()[row], end = layout.entry_start()[row + 1];

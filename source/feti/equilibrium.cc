@@ -19,8 +19,23 @@ const double balance_tolerance = 1e-10;
 /// example is the moment of forces on round faces.
 const double wrench_cut = 1e-10;
 
+/// Maximum number of times that edges of cones are added; 1 to 15 suffice.
+const unsigned int most_passes = 50;
+
 /// A body is at rest in a free motion if the square of its share in the motion is below this value.
 const double rest_cut = 1e-6;
+
+/// Return the columns of all ranks, in the order of the ranks. Collective.
+qp::MultiVector gather_columns(const std::vector<double> &mine, unsigned int n_rows, MPI_Comm comm)
+{
+  std::vector<double> numbers;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(comm, mine))
+    numbers.insert(numbers.end(), of_rank.begin(), of_rank.end());
+  // Columns are contiguous in memory, so the gathered numbers are the matrix.
+  qp::MultiVector columns(n_rows, narrow<unsigned int>(numbers.size() / n_rows));
+  std::copy(numbers.begin(), numbers.end(), columns.column(0));
+  return columns;
+}
 
 /// Return the columns Z'g_i of @p rows, each followed by the row's numbers in @p values, on all
 /// ranks and in the order of the ranks.
@@ -29,20 +44,14 @@ row_columns(const CoarseSpace &coarse, const qp::RowSet &rows, const qp::MultiVe
 {
   // Row i of G'Z is the wrench of a unit force of contact i, in coordinates of the body modes.
   const RowLayout &layout = coarse.structure().layout;
-  auto             all    = coarse.transpose_multiply(coarse.body_modes(), nullptr);
+  auto             all    = coarse.transpose_multiply(coarse.body_modes());
   all.append(values);
   std::vector<double> mine;
   for (unsigned int i = 0; i < layout.n_owned(); ++i)
     if (rows[i])
       for (unsigned int k = 0; k < all.n_columns(); ++k)
         mine.push_back(all(i, k));
-  std::vector<double> numbers;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(layout.communicator(), mine))
-    numbers.insert(numbers.end(), of_rank.begin(), of_rank.end());
-  // Columns are contiguous in memory, so the gathered numbers are the matrix.
-  qp::MultiVector columns(all.n_columns(), narrow<unsigned int>(numbers.size() / all.n_columns()));
-  std::copy(numbers.begin(), numbers.end(), columns.column(0));
-  return columns;
+  return gather_columns(mine, all.n_columns(), layout.communicator());
 }
 
 /// Return an orthonormal basis of the body motions that no row of @p rows resists. @p rows holds
@@ -116,34 +125,136 @@ std::string describe_range(qp::MultiVector P)
     }
   return text;
 }
+
+/**
+ * This class generates the wrenches of contact forces in the motions @p free that no equality row
+ * resists: forces along the normals and, with friction, along the edges of the cones. Circular
+ * cones have infinitely many edges. Those against which a motion pushes are added on demand.
+ */
+class ContactWrenches
+{
+public:
+  ContactWrenches(const LoadedProblem &the_problem, const qp::MultiVector &free)
+    : problem(the_problem)
+    , columns(the_problem.linearization().coarse().transpose_multiply(
+        times(the_problem.linearization().coarse().body_modes(), free)))
+    , whole(the_problem.linearization().coarse().transpose_multiply(
+        the_problem.linearization().coarse().body_modes()))
+    , wrenches(columns.n_columns(), 0)
+  {
+    auto                without_friction = problem.bounded();
+    std::vector<double> mine;
+    for (const qp::FrictionCone &cone : problem.cones())
+      {
+        without_friction[cone.normal] = 0;
+        for (unsigned int t = 0; t < cone.n_tangents; ++t)
+          for (const double sign : {1., -1.})
+            {
+              std::array<double, 2> h = {};
+              h[t]                    = sign;
+              add(cone, h, mine);
+            }
+        if (cone.coefficient == 0.)
+          add_row(cone.normal, mine);
+      }
+    for (unsigned int i = 0; i < problem.n_owned(); ++i)
+      if (without_friction[i])
+        add_row(i, mine);
+    gather(mine);
+  }
+
+  const qp::MultiVector &all() const { return wrenches; }
+
+  /// Add the edges of circular cones against which the motion @p v pushes, in coordinates of the
+  /// free motions. Return whether there are any. Collective.
+  bool add_edges_against(const qp::MultiVector &v)
+  {
+    const auto          rates   = times(columns, v);
+    const double        largest = qp::norms(v, MPI_COMM_SELF)[0];
+    std::vector<double> mine;
+    for (const qp::FrictionCone &cone : problem.cones())
+      {
+        if (cone.n_tangents < 2 || cone.coefficient == 0.)
+          continue;
+        const double x = rates(cone.tangents[0]), y = rates(cone.tangents[1]);
+        const double along = std::hypot(x, y);
+        if (rates(cone.normal) + cone.coefficient * along > wrench_cut * largest)
+          add(cone, {{x / along, y / along}}, mine);
+      }
+    const bool any =
+      dealii::Utilities::MPI::logical_or(!mine.empty(), problem.context().communicator());
+    if (any)
+      gather(mine);
+    return any;
+  }
+
+private:
+  const LoadedProblem  &problem;
+  const qp::MultiVector columns, whole; ///< G' in free motions; in all motions of the bodies
+  qp::MultiVector       wrenches;
+
+  void add_row(const unsigned int row, std::vector<double> &mine) const { add({row}, {}, mine); }
+
+  /// Add the wrench of the force n + mu h, or of h for a given bound.
+  void
+  add(const qp::FrictionCone &cone, const std::array<double, 2> &h, std::vector<double> &mine) const
+  {
+    const bool   is_bound = cone.n_tangents > 0 && cone.coefficient == 0.;
+    const double mu       = is_bound ? 1. : cone.coefficient;
+    const auto   wrench   = [&](const qp::MultiVector &G, const unsigned int k) {
+      double sum = is_bound ? 0. : G(cone.normal, k);
+      for (unsigned int t = 0; t < cone.n_tangents; ++t)
+        sum += mu * h[t] * G(cone.tangents[t], k);
+      return sum;
+    };
+    double part = 0., all = 0.;
+    for (unsigned int k = 0; k < columns.n_columns(); ++k)
+      part += std::pow(wrench(columns, k), 2);
+    for (unsigned int k = 0; k < whole.n_columns(); ++k)
+      all += std::pow(wrench(whole, k), 2);
+    for (unsigned int k = 0; k < columns.n_columns(); ++k)
+      mine.push_back(part < wrench_cut * wrench_cut * all ? 0. : wrench(columns, k));
+  }
+
+  void gather(const std::vector<double> &mine)
+  {
+    wrenches.append(gather_columns(mine, columns.n_columns(), problem.context().communicator()));
+  }
+};
 } // namespace
 
-/// Check whether some lambda satisfies G lambda = e, lambda_I >= 0. Multipliers of equality rows
+std::string LoadedProblem::describe_motion(const qp::MultiVector &v) const
+{
+  return describe_escape(transpose_times(linear.coarse().body_modes(), v), linear.table());
+}
+
+/// Check whether some lambda within the cones satisfies G lambda = e. Multipliers of equality rows
 /// have no bounds, so only the motions Z Y that no equality row resists matter: Y'Z'G_I lambda_I =
 /// Y'Z'e. All ranks solve the same small problem with the same numbers and get the same result.
 void LoadedProblem::check_equilibrium() const
 {
   const auto &coarse = linear.coarse();
-  const auto  free   = motions_unresisted_by(coarse, qp::complement(bounded()));
+  const auto  free   = motions_unresisted_by(coarse, qp::complement(linear.contact_rows()));
   // Supports hold all bodies, so every load can be balanced.
   if (free.n_columns() == 0)
     return;
-  const auto columns  = row_columns(coarse, bounded(), qp::MultiVector(n_owned(), 0));
-  auto       wrenches = transpose_times(free, columns);
-  const auto whole = qp::norms(columns, MPI_COMM_SELF), part = qp::norms(wrenches, MPI_COMM_SELF);
-  for (unsigned int k = 0; k < wrenches.n_columns(); ++k)
-    if (part[k] < wrench_cut * whole[k])
-      std::fill_n(wrenches.column(k), wrenches.n_rows(), 0.);
-  const auto load     = transpose_times(free, transpose_times(coarse.body_modes(), rigid_load));
-  const auto balance  = qp::nnls(wrenches, load);
-  double     residual = 0.;
-  for (unsigned int i = 0; i < balance.residual.n_rows(); ++i)
-    residual = std::max(residual, std::abs(balance.residual(i)));
-  // The residual is the load that no contact resists, hence also the direction of the escape. Loads
-  // of one body may cancel, so rounding errors are relative to the loads before they cancel.
-  if (residual > balance_tolerance * gross_load)
-    throw SolveError("no equilibrium: " +
-                     describe_escape(times(free, balance.residual), linear.table()));
+  ContactWrenches wrenches(*this, free);
+  const auto      load = transpose_times(free, transpose_times(coarse.body_modes(), rigid_load));
+  for (unsigned int pass = 0;; ++pass)
+    {
+      const auto residual = qp::nnls(wrenches.all(), load).residual;
+      double     largest  = 0.;
+      for (unsigned int i = 0; i < residual.n_rows(); ++i)
+        largest = std::max(largest, std::abs(residual(i)));
+      // Loads of one body may cancel, so rounding errors are relative to the loads before they
+      // cancel.
+      if (largest <= balance_tolerance * gross_load)
+        return;
+      // The residual is the load that no contact resists, hence also the direction of the escape.
+      if (pass == most_passes || !wrenches.add_edges_against(residual))
+        throw SolveError("no equilibrium: " +
+                         describe_escape(times(free, residual), linear.table()));
+    }
 }
 
 /// y = N'R'u are the coordinates of u in the motions N = Z Y that the loaded rows do not resist.

@@ -1,58 +1,67 @@
 #include <snug/feti/feti_free_set.h>
 
-namespace snug::feti {
-Linearization::FetiFreeSet::FetiFreeSet(const Linearization &the_feti, const qp::RowSet &the_free)
-  : feti(the_feti), free(the_free)
-{}
+#include <cmath>
 
-const qp::RowSet &Linearization::FetiFreeSet::rows() const
-{
-  return free;
-}
+namespace snug::feti {
+Linearization::FetiFreeSet::FetiFreeSet(const Linearization &the_feti, const qp::FreeRows &the_free)
+  : feti(the_feti)
+  , free(the_free)
+  , equations{the_free.transpose(), nullptr}
+  , multipliers{the_free, nullptr}
+{}
 
 /// Assemble the coarse problem when it is first needed. For example, the faces of SMALSE-M only
 /// precondition, and the projection belongs to another face. The assembly is collective, so all
 /// ranks must call this function at the same time.
-const CoarseProblem &Linearization::FetiFreeSet::coarse_problem() const
+const CoarseProblem &Linearization::FetiFreeSet::coarse_problem(const Side &side) const
 {
-  if (!problem)
+  if (!side.problem)
     {
-      problem = std::make_unique<CoarseProblem>(feti.coarse(), free);
+      side.problem = std::make_unique<CoarseProblem>(feti.coarse(), side.free);
       ++feti.context().work.coarse_factorizations;
     }
-  return *problem;
+  return *side.problem;
 }
 
-void Linearization::FetiFreeSet::restrict(qp::MultiVector &x) const
+/// Return G M y.
+qp::MultiVector Linearization::FetiFreeSet::multiply(const Side &side, qp::MultiVector y) const
 {
-  for (unsigned int k = 0; k < x.n_columns(); ++k)
-    for (unsigned int row = 0; row < x.n_rows(); ++row)
-      if (!free[row])
-        x(row, k) = 0.;
+  side.free.expand(y);
+  return feti.coarse().multiply(y);
+}
+
+/// Return M' G' alpha.
+qp::MultiVector Linearization::FetiFreeSet::transpose_multiply(const Side            &side,
+                                                               const qp::MultiVector &alpha) const
+{
+  auto y = feti.coarse().transpose_multiply(alpha);
+  side.free.transpose().reduce(y);
+  return y;
 }
 
 qp::MultiVector Linearization::FetiFreeSet::amplitudes(const qp::MultiVector &x) const
 {
   qp::MultiVector rest = x, alpha(feti.table().n_kernel(), x.n_columns());
-  subtract_rigid_part(rest, alpha);
+  subtract_rigid_part(equations, rest, alpha);
   // Repeat the subtraction: in long chains of subdomains the motion at the ends is a sum of many
   // parts. Otherwise the rounding error that the first pass leaves, 1000 epsilon of x after 200
   // subdomains, would count as a residual.
-  subtract_rigid_part(rest, alpha);
+  subtract_rigid_part(equations, rest, alpha);
   return alpha;
 }
 
 /// Add a = (G_M G_M')^+ G_M x to alpha and subtract G_M' a from x, in steps. Each step computes its
 /// part from the present x, so it also removes what inaccurate earlier solutions left.
-void Linearization::FetiFreeSet::subtract_rigid_part(qp::MultiVector &x,
+void Linearization::FetiFreeSet::subtract_rigid_part(const Side      &side,
+                                                     qp::MultiVector &x,
                                                      qp::MultiVector &alpha) const
 {
-  restrict(x);
-  for (unsigned int step = 0; step < coarse_problem().n_steps(); ++step)
+  free.restrict(x);
+  for (unsigned int step = 0; step < coarse_problem(side).n_steps(); ++step)
     {
       feti.context().work.coarse_solves += x.n_columns();
-      const auto part = coarse_problem().solve(feti.coarse().multiply(x, &free), step);
-      x.add(-1., feti.coarse().transpose_multiply(part, &free));
+      const auto part = coarse_problem(side).solve(multiply(side, x), step);
+      x.add(-1., transpose_multiply(side, part));
       alpha.add(1., part);
     }
 }
@@ -61,7 +70,13 @@ void Linearization::FetiFreeSet::project(qp::MultiVector &x) const
 {
   // P_M x = x_M - G_M' (G_M G_M')^+ G_M x_M
   qp::MultiVector alpha(feti.table().n_kernel(), x.n_columns());
-  subtract_rigid_part(x, alpha);
+  subtract_rigid_part(equations, x, alpha);
+}
+
+void Linearization::FetiFreeSet::project_multipliers(qp::MultiVector &y) const
+{
+  qp::MultiVector alpha(feti.table().n_kernel(), y.n_columns());
+  subtract_rigid_part(of_multipliers(), y, alpha);
 }
 
 std::vector<double> Linearization::FetiFreeSet::deflate(qp::MultiVector &x) const
@@ -79,50 +94,62 @@ void Linearization::FetiFreeSet::minimize_over_deflated(qp::MultiVector &lambda,
 qp::MultiVector Linearization::FetiFreeSet::precondition(const qp::MultiVector &r) const
 {
   qp::MultiVector z = r;
+  free.restrict(z);
   if (feti.structure.parameters.preconditioner == Preconditioner::none)
-    {
-      restrict(z);
-      return z;
-    }
+    return z;
   feti.context().work.preconditioner_applications += r.n_columns();
   // Only the owner of linearly dependent contact rows detects them.
   if (!gram)
     throw_collectively(feti.context().communicator(),
                        [&]() { gram = std::make_unique<RowGram::Factor>(*feti.gram, free); });
   // M^-1 = W_M^-1 (B D^-1 S D^-1 B') W_M^-1. W_M is the identity for orthonormal rows and D = I.
+  scale_slips(z);
   gram->solve(z);
   feti.precondition(z);
   gram->solve(z);
+  scale_slips(z);
   return z;
+}
+
+/// Multiply z by (1 + D / F_yy)^-1/2 across slips, where the operator is F + D.
+void Linearization::FetiFreeSet::scale_slips(qp::MultiVector &z) const
+{
+  for (const qp::Slip &slip : free.slips())
+    if (slip.cone.n_tangents == 2)
+      {
+        const double F  = slip.cone.compliance(feti.diagonal());
+        const double by = 1. / std::sqrt(1. + slip.compliance / F);
+        for (unsigned int k = 0; k < z.n_columns(); ++k)
+          for (const unsigned int row : slip.cone.tangents)
+            z(row, k) *= by;
+      }
 }
 
 std::vector<double> Linearization::FetiFreeSet::make_feasible(qp::MultiVector       &x,
                                                               const qp::MultiVector &e) const
 {
-  restrict(x);
+  const Side &side = of_multipliers();
+  free.restrict(x);
   qp::MultiVector missing = e;
-  missing.add(-1., feti.coarse().multiply(x, &free));
-  for (unsigned int step = 0; step < coarse_problem().n_steps(); ++step)
+  missing.add(-1., multiply(side, x));
+  for (unsigned int step = 0; step < coarse_problem(side).n_steps(); ++step)
     {
       feti.context().work.coarse_solves += x.n_columns();
       // Add the minimum change of x, in the Euclidean norm, that balances e as far as M can.
-      x.add(1., feti.coarse().transpose_multiply(coarse_problem().solve(missing, step), &free));
+      x.add(1., transpose_multiply(side, coarse_problem(side).solve(missing, step)));
       missing = e;
-      missing.add(-1., feti.coarse().multiply(x, &free));
+      missing.add(-1., multiply(side, x));
     }
+  free.expand(x);
   return feti.coarse().structure().norms(missing);
 }
 
-std::vector<double> Linearization::FetiFreeSet::gap_closing_rates(const qp::MultiVector &e) const
+const qp::MultiVector &Linearization::FetiFreeSet::unresisted_motions() const
 {
-  const qp::MultiVector rates =
-    // N N'e is the part of the load that M does not hold, taken as a motion. G' N N'e are the rates
-    // at which the rows close. N'G_M = 0, so the forces of rows of M do not contribute.
-    feti.coarse().transpose_multiply(coarse_problem().kernel_part(e), nullptr);
-  return std::vector<double>(rates.column(0), rates.column(0) + rates.n_rows());
+  return coarse_problem(equations).kernel();
 }
 
-std::unique_ptr<qp::FreeSet> Linearization::free_set(const qp::RowSet &free_rows) const
+std::unique_ptr<qp::FreeSet> Linearization::free_set(const qp::FreeRows &free_rows) const
 {
   return std::make_unique<FetiFreeSet>(*this, free_rows);
 }

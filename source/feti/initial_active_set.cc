@@ -27,28 +27,39 @@ const double slow = 1e-8;
 /// falls.
 std::vector<double> rigidly_closed_gaps(const LoadedProblem &problem)
 {
-  const auto equality = qp::complement(problem.bounded());
+  const auto equality = qp::complement(problem.linearization().contact_rows());
   if (free_bodies(problem.linearization(), equality).empty())
     return std::vector<double>(problem.g().column(0), problem.g().column(0) + problem.n_owned());
-  const auto rates       = problem.free_set(equality)->gap_closing_rates(problem.e());
-  double     extremes[2] = {0., HUGE_VAL}; // maximum rate, time until the first touch
-  for (const double rate : rates)
-    extremes[0] = std::max(extremes[0], std::abs(rate));
+  const auto  set         = problem.free_set(equality);
+  const auto &motions     = set->unresisted_motions();
+  const auto  motion      = times(motions, transpose_times(motions, problem.e()));
+  const auto  rates       = problem.apply_Gt(motion);
+  double      extremes[2] = {0., HUGE_VAL}; // maximum rate, time until the first touch
+  for (unsigned int i = 0; i < problem.n_owned(); ++i)
+    extremes[0] = std::max(extremes[0], std::abs(rates(i)));
   const MPI_Comm comm = problem.context().communicator();
   MPI_Allreduce(MPI_IN_PLACE, &extremes[0], 1, MPI_DOUBLE, MPI_MAX, comm);
   std::vector<double> gaps(problem.n_owned());
   for (unsigned int i = 0; i < gaps.size(); ++i)
     {
       gaps[i] = problem.g()(i);
-      if (problem.bounded()[i] && rates[i] > slow * extremes[0])
-        extremes[1] = std::min(extremes[1], std::max(gaps[i], 0.) / rates[i]);
+      if (problem.bounded()[i] && rates(i) > slow * extremes[0])
+        extremes[1] = std::min(extremes[1], std::max(gaps[i], 0.) / rates(i));
     }
   MPI_Allreduce(MPI_IN_PLACE, &extremes[1], 1, MPI_DOUBLE, MPI_MIN, comm);
   if (std::isfinite(extremes[1]))
     for (unsigned int i = 0; i < gaps.size(); ++i)
       if (problem.bounded()[i])
-        gaps[i] -= extremes[1] * rates[i];
+        gaps[i] -= extremes[1] * rates(i);
   return gaps;
+}
+
+/// Let the tangential rows of contacts be free where their normal rows are.
+void follow_normals(const LoadedProblem &problem, qp::RowSet &rows)
+{
+  for (const qp::FrictionCone &cone : problem.cones())
+    for (unsigned int t = 0; t < cone.n_tangents; ++t)
+      rows[cone.tangents[t]] = rows[cone.normal];
 }
 
 /// Fraction of the loads that a set may leave unbalanced.
@@ -86,6 +97,7 @@ qp::RowSet rigid_contact_rows(const LoadedProblem &problem, const qp::RowSet &ro
             result[i] = rates(i) > 0.;
             changed   = true;
           }
+      follow_normals(problem, result);
       if (!dealii::Utilities::MPI::logical_or(changed, comm))
         break;
     }
@@ -115,6 +127,8 @@ pair_loads(const LoadedProblem &problem, const std::vector<double> &gaps, const 
     {
       const double       gap  = gaps[i];
       const unsigned int pair = pairs.of_row[i];
+      if (problem.linearization().contact_rows()[i] && !problem.bounded()[i])
+        continue; // tangential rows
       if (pair == n_pairs)
         {
           loads.held = std::max(loads.held, std::abs(gap));
@@ -152,7 +166,7 @@ qp::RowSet rigid_prediction(const LoadedProblem &problem, const ContactPairs &pa
       for (unsigned int i = 0; i < problem.n_owned(); ++i)
         {
           const unsigned int pair = pairs.of_row[i];
-          if (pair == n_pairs || gaps[i] > middle[pair])
+          if (pair == n_pairs || !problem.bounded()[i] || gaps[i] > middle[pair])
             continue;
           sums[2 * pair] += 1.;
           sums[2 * pair + 1] += problem.diagonal()[i];
@@ -175,6 +189,7 @@ qp::RowSet rigid_prediction(const LoadedProblem &problem, const ContactPairs &pa
       if (pair < n_pairs && (loads.force[pair] > 0. || low[pair] > loads.least[pair]))
         expected[i] = gaps[i] <= high[pair];
     }
+  follow_normals(problem, expected);
   return rigid_contact_rows(problem, expected);
 }
 } // namespace snug::feti

@@ -30,7 +30,7 @@ Groups groups_of(const RowLayout &layout, const std::size_t stride)
   const auto                                  &start = layout.entry_start();
   std::map<Unknown, std::vector<unsigned int>> entries;
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (!layout.bounded()[row])
+    if (!layout.contact_rows()[row])
       for (unsigned int e = start[row]; e < start[row + 1]; ++e)
         entries[layout.entry_unknowns()[e]].push_back(e);
   Groups groups;
@@ -88,7 +88,7 @@ qp::MultiVector row_forces_of(const RowLayout           &layout,
     for (unsigned int k = 0; k < members.size(); ++k)
       for (const unsigned int e : groups.entries[members[k]])
         X(groups.row_of_entry[e], k) = entries[e * groups.stride] * entries[e * groups.stride + 1];
-  RowGram::Factor(gram, qp::complement(layout.bounded())).solve(X);
+  RowGram::Factor(gram, qp::complement(layout.contact_rows())).solve(X);
   return X;
 }
 

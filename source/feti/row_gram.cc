@@ -7,14 +7,14 @@
 namespace snug::feti {
 namespace {
 /// Flag the contact rows, and the rows coupled to a contact row by a chain of shared unknowns.
-std::vector<bool> coupled_to_contact(const qp::RowSet                             &bounded,
+std::vector<bool> coupled_to_contact(const qp::RowSet                             &contact_rows,
                                      const std::vector<std::vector<unsigned int>> &rows_of_unknown,
                                      const std::vector<std::vector<unsigned int>> &unknowns_of_row)
 {
-  std::vector<bool>         coupled(bounded.size(), false);
+  std::vector<bool>         coupled(contact_rows.size(), false);
   std::vector<unsigned int> front;
-  for (unsigned int row = 0; row < bounded.size(); ++row)
-    if (bounded[row])
+  for (unsigned int row = 0; row < contact_rows.size(); ++row)
+    if (contact_rows[row])
       {
         coupled[row] = true;
         front.push_back(row);
@@ -72,7 +72,7 @@ RowGramStructure::RowGramStructure(const RowLayout &layout)
       }
   // A contact row that leaves M changes W_M^-1 on all rows that its block couples. Only these
   // blocks must be factorized again when the set changes. Gluing rows elsewhere keep their factor.
-  const auto coupled = coupled_to_contact(layout.bounded(), rows_of_unknown, unknowns_of_row);
+  const auto coupled = coupled_to_contact(layout.contact_rows(), rows_of_unknown, unknowns_of_row);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     {
       Group &group = coupled[row] ? contact : fixed;
@@ -119,18 +119,21 @@ RowGram::RowGram(const RowGramStructure    &the_structure,
     fixed = structure.factors.factorize(of_fixed, "B D^-1 B' of the gluing rows");
 }
 
-RowGram::Factor::Factor(const RowGram &the_gram, const qp::RowSet &the_free)
-  : gram(the_gram), free(the_free)
+RowGram::Factor::Factor(const RowGram &the_gram, const qp::FreeRows &the_free)
+  : gram(the_gram), free(the_free), rows(the_free.rows())
 {
-  const auto &rows = gram.structure.contact.rows;
-  if (rows.empty())
+  const auto &numbers = gram.structure.contact.rows;
+  if (numbers.empty())
     return;
-  CsrMatrix matrix = gram.contact;
+  for (const qp::Slip &slip : free.slips())
+    if (slip.cone.n_tangents == 2)
+      rows[slip.cone.tangents[0]] = 1;
+  CsrMatrix matrix = turned(gram.contact);
   for (unsigned int i = 0; i < matrix.n_rows(); ++i)
     for (PetscInt p = matrix.row_start()[i]; p < matrix.row_start()[i + 1]; ++p)
       {
         const unsigned int j = matrix.columns()[p];
-        if (!free[rows[i]] || !free[rows[j]])
+        if (!rows[numbers[i]] || !rows[numbers[j]])
           // Replace rows outside M by those of the identity, so that the pattern and its symbolic
           // factorization serve all sets.
           matrix.values[p] = i == j ? 1. : 0.;
@@ -140,17 +143,53 @@ RowGram::Factor::Factor(const RowGram &the_gram, const qp::RowSet &the_free)
                                        "same?)");
 }
 
+/// Return Q'WQ with the rotation Q of each pair of tangential rows to the directions across and
+/// along the slip. Both rows of a pair have the same pattern, so the pattern does not change.
+CsrMatrix RowGram::Factor::turned(CsrMatrix matrix) const
+{
+  for (const qp::Slip &slip : free.slips())
+    {
+      if (slip.cone.n_tangents < 2)
+        continue;
+      const auto &place = gram.structure.place;
+      const auto  a = place[slip.cone.tangents[0]].second, b = place[slip.cone.tangents[1]].second;
+      const auto  across = slip.across(), along = slip.direction;
+      const auto  turn = [&](double &of_a, double &of_b) {
+        const double first = across[0] * of_a + across[1] * of_b;
+        of_b               = along[0] * of_a + along[1] * of_b;
+        of_a               = first;
+      };
+      const auto &start = matrix.row_start();
+      for (PetscInt k = 0; k < start[a + 1] - start[a]; ++k)
+        turn(matrix.values[start[a] + k], matrix.values[start[b] + k]);
+      for (PetscInt k = start[a]; k < start[a + 1]; ++k)
+        {
+          const auto j = matrix.columns()[k];
+          turn(matrix.values[matrix.position(j, a)], matrix.values[matrix.position(j, b)]);
+        }
+    }
+  return matrix;
+}
+
 void RowGram::Factor::solve(qp::MultiVector &x) const
 {
-  for (unsigned int k = 0; k < x.n_columns(); ++k)
-    for (unsigned int row = 0; row < x.n_rows(); ++row)
-      // Rows outside M are set to zero, because the identity rows would return them unchanged.
-      if (!free[row])
-        x(row, k) = 0.;
+  // Rows outside M are set to zero, because the identity rows would return them unchanged.
+  free.restrict(x);
+  for (const qp::Slip &slip : free.slips())
+    for (unsigned int k = 0; slip.cone.n_tangents == 2 && k < x.n_columns(); ++k)
+      {
+        const auto [a, b] = slip.cone.tangents;
+        x(a, k)           = slip.across()[0] * x(a, k) + slip.across()[1] * x(b, k);
+        x(b, k)           = 0.;
+      }
   // Equality rows are always in M, so the factor of the fixed group serves all faces.
   if (gram.fixed)
     solve_group(gram.structure.fixed, *gram.fixed, x);
   if (W)
     solve_group(gram.structure.contact, *W, x);
+  for (const qp::Slip &slip : free.slips())
+    for (unsigned int k = 0; slip.cone.n_tangents == 2 && k < x.n_columns(); ++k)
+      for (const unsigned int t : {1u, 0u})
+        x(slip.cone.tangents[t], k) = slip.across()[t] * x(slip.cone.tangents[0], k);
 }
 } // namespace snug::feti

@@ -75,15 +75,15 @@ qp::MultiVector deinterleave(const std::vector<double> &rows, unsigned int n, un
 } // namespace
 
 RowLayout::RowLayout(MPI_Comm                               communicator,
-                     const qp::RowSet                      &bounded,
+                     const qp::RowSet                      &contact_rows,
                      const std::vector<std::vector<Entry>> &entries,
                      unsigned int                           first_subdomain)
-  : comm(communicator), is_bounded(bounded)
+  : comm(communicator), is_contact(contact_rows)
 {
   int n_ranks;
   MPI_Comm_size(comm, &n_ranks);
   std::vector<unsigned int> first(n_ranks + 1, 0);
-  const unsigned int        n = narrow<unsigned int>(bounded.size());
+  const unsigned int        n = narrow<unsigned int>(contact_rows.size());
   MPI_Allgather(&n, 1, MPI_UNSIGNED, first.data() + 1, 1, MPI_UNSIGNED, comm);
   std::partial_sum(first.begin(), first.end(), first.begin());
   int rank;
@@ -130,7 +130,7 @@ void RowLayout::sort_local_rows(const std::vector<unsigned int> &first_row_of_ra
 {
   qp::MultiVector owned(n_owned());
   for (unsigned int row = 0; row < n_owned(); ++row)
-    owned(row) = is_bounded[row] ? 1. : 0.;
+    owned(row) = is_contact[row] ? 1. : 0.;
   const auto                flags = to_local(owned);
   std::vector<unsigned int> equalities, contacts;
   for (unsigned int row = 0; row < n_local(); ++row)

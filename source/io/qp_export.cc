@@ -206,7 +206,8 @@ void export_qp(const std::string         &directory,
   writer.write("R", std::move(matrices.R));
   writer.write("f", joined(feti.loads()));
   writer.write("g", column(feti.g()));
-  writer.write("bounded", std::vector<double>(layout.bounded().begin(), layout.bounded().end()));
+  writer.write("bounded",
+               std::vector<double>(layout.contact_rows().begin(), layout.contact_rows().end()));
   writer.write("u", joined(u));
   writer.write("lambda", column(lambda));
 }

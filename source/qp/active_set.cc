@@ -1,6 +1,7 @@
 #include <snug/base/narrow.h>
 #include <snug/qp/active_set.h>
 #include <snug/qp/cycle_detector.h>
+#include <snug/qp/friction_newton.h>
 #include <snug/qp/kkt.h>
 #include <snug/qp/pcpg.h>
 #include <snug/qp/row_set.h>
@@ -190,15 +191,8 @@ bool ActiveSetRun::finished()
   clip_rounding(problem.bounded(), negligible, lambda);
   if (any(has_negative(problem.bounded(), lambda), comm))
     return false;
-  MultiVector parts = problem.d();
-  parts.add(-1., residual);
-  parts.append(problem.d());
-  const auto sizes = norms(parts, comm); // of F lambda and of d
-  // PCPG updates d - F lambda by recurrence. Each step adds rounding errors of about eps (|F
-  // lambda| + |d|), and the true residual is known only up to their sum. If this sum could hide a
-  // tenth of the tolerance, compute the residual anew by one F-mult.
-  const double drift = std::numeric_limits<double>::epsilon() * recurrences * (sizes[0] + sizes[1]);
-  if (drift < 0.1 * parameters.relative_tolerance * scale)
+  if (recurrence_error(problem, residual, recurrences) <
+      0.1 * parameters.relative_tolerance * scale)
     return true;
   refresh_residual();
   kkt = kkt_here();
@@ -335,6 +329,8 @@ ActiveSet::ActiveSet(const SolverParameters &the_parameters, const ActiveSetOpti
 
 DualSolution ActiveSet::solve(const DualProblem &problem, const WarmStart &start) const
 {
+  if (any(!problem.cones().empty(), problem.context().communicator()))
+    return friction_newton(problem, parameters, start);
   ActiveSetRun run(problem, parameters, options);
   if (run.run(start))
     return run.solution();

@@ -13,9 +13,6 @@ const double least_part = 1e-10;
 /// This occurs for slender subdomains, whose K^+ loses many digits.
 const double suspect_part = 1e-6;
 
-/// Part of the load that a set may leave unbalanced.
-const double balance_tolerance = 1e-8;
-
 /// A scale of this many times the rounding of F makes tolerances of 1e-6 attainable.
 const double above_rounding = 1e8;
 
@@ -30,6 +27,23 @@ double natural_residual(const DualProblem &problem,
   if (!problem.bounded()[i])
     return w(i);
   return -std::min(lambda(i) * problem.diagonal()[i], -w(i));
+}
+
+/// Set the rows of a cone to (P(lambda_T + c w_T) - lambda_T) / c with c = 1 / F_TT, where P is the
+/// projection onto the cone: zero if lambda_T is in the cone and opposes the slip w_T with its full
+/// limit.
+void set_natural_residual(const DualProblem  &problem,
+                          const FrictionCone &cone,
+                          const MultiVector  &lambda,
+                          const MultiVector  &w,
+                          MultiVector        &residual)
+{
+  const double F = cone.compliance(problem.diagonal()), limit = cone.limit(lambda);
+  const auto   x      = cone.trial_force(F, lambda, w);
+  const double length = std::hypot(x[0], x[1]);
+  for (unsigned int t = 0; t < cone.n_tangents; ++t)
+    residual(cone.tangents[t]) =
+      F * (x[t] * (length > limit ? limit / length : 1.) - lambda(cone.tangents[t]));
 }
 } // namespace
 
@@ -64,6 +78,8 @@ KktResidual kkt_residual(const DualProblem &problem,
   both.append(residual);
   for (unsigned int i = 0; i < problem.n_owned(); ++i)
     both(i, 0) = natural_residual(problem, lambda, kkt.w, i);
+  for (const FrictionCone &cone : problem.cones())
+    set_natural_residual(problem, cone, lambda, kkt.w, both);
   const auto sizes = norms(both, comm);
   // w = (d - F lambda) + G'alpha. Where nearly all of d - F lambda is rigid motion, the two terms
   // cancel, and the remainder is their rounding error.
@@ -80,6 +96,16 @@ KktResidual kkt_residual(const DualProblem &problem,
     throw SolveError("the contact forces are not finite numbers; check "
                      "stiffness, loads and gaps");
   return kkt;
+}
+
+double
+recurrence_error(const DualProblem &problem, const MultiVector &residual, const unsigned int steps)
+{
+  MultiVector parts = problem.d();
+  parts.add(-1., residual);
+  parts.append(problem.d());
+  const auto sizes = norms(parts, problem.context().communicator()); // of F lambda and of d
+  return std::numeric_limits<double>::epsilon() * steps * (sizes[0] + sizes[1]);
 }
 
 std::vector<double> force_rounding(const DualProblem &problem,
@@ -132,16 +158,23 @@ balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, doub
       // The part of e that the set cannot hold is a rigid motion of some bodies. Contacts that
       // close in this motion can push back. Rates that are rounding errors relative to the fastest
       // rate are excluded, because they would let the set grow to all rows.
-      const auto rates   = free_set->gap_closing_rates(problem.e());
-      double     fastest = rates.empty() ? 0. : *std::max_element(rates.begin(), rates.end());
+      const auto &motions = free_set->unresisted_motions();
+      const auto  motion  = times(motions, transpose_times(motions, problem.e()));
+      const auto  rates   = problem.apply_Gt(motion);
+      double      fastest = 0.;
+      for (unsigned int i = 0; i < rates.n_rows(); ++i)
+        fastest = std::max(fastest, problem.bounded()[i] ? rates(i) : 0.);
       MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
       bool grows = false;
-      for (unsigned int i = 0; i < rates.size(); ++i)
-        if (!rows[i] && rates[i] > 1e-10 * fastest)
+      for (unsigned int i = 0; i < rates.n_rows(); ++i)
+        if (problem.bounded()[i] && !rows[i] && rates(i) > 1e-10 * fastest)
           {
             rows[i] = 1;
             grows   = true;
           }
+      for (const FrictionCone &cone : problem.cones())
+        for (unsigned int t = 0; rows[cone.normal] && t < cone.n_tangents; ++t)
+          rows[cone.tangents[t]] = 1;
       if (!any(grows, comm))
         throw SolveError("no equilibrium: the contacts cannot balance "
                          "the loads of a floating body");

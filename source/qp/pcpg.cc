@@ -1,12 +1,12 @@
 #include <snug/qp/independent_columns.h>
 #include <snug/qp/kkt.h>
+#include <snug/qp/krylov_columns.h>
 #include <snug/qp/pcpg.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace snug::qp {
 namespace {
@@ -18,62 +18,8 @@ const double dependence_cut = 1e-3;
 /// its F-norm.
 const double noise = 1e-12;
 
-/// A column converges with the others if the distance of its residual from the span of the other
-/// residuals is at most this part of its tolerance.
-const double negligible = 0.5;
-
-/// Columns whose distance from this span is less than this part of the longest column give no
-/// direction yet, because later directions of the others may suffice.
-const double minor = 0.3;
-
 /// Number of iterations for whose directions memory is reserved.
 const unsigned int usual_iterations = 32;
-
-/// Number of iterations without a smaller residual after which the residual has stalled.
-const unsigned int patience = 40;
-
-/// Return columns of @p x, divided by @p units, whose span is near all the others.
-MultiVector leading_part(const MultiVector               &x,
-                         const std::vector<unsigned int> &columns,
-                         const std::vector<double>       &units,
-                         MPI_Comm                         comm)
-{
-  MultiVector scaled(x.n_rows(), 0);
-  for (const unsigned int j : columns)
-    {
-      MultiVector column(x.n_rows());
-      column.add(1. / units[j], x.columns_from(j, 1));
-      scaled.append(column);
-    }
-  MultiVector part(x.n_rows(), 0);
-  for (const unsigned int j :
-       leading_columns(inner_products(scaled, scaled, comm), negligible, minor))
-    part.append(scaled.columns_from(j, 1));
-  return part;
-}
-
-/// This class records the minimum of the worst column and the iterations since this minimum.
-class StagnationTest
-{
-public:
-  /// Return whether the residual has stalled. If only rounding is left (@p is_rounding), one
-  /// iteration without a smaller residual suffices: further directions would be rounding errors as
-  /// well, and soon no longer F-orthogonal.
-  bool stagnates(const double worst, const bool is_rounding)
-  {
-    ++waited;
-    if (worst < 0.99 * best)
-      {
-        best   = worst;
-        waited = 0;
-      }
-    return waited > (is_rounding ? 0 : patience);
-  }
-
-private:
-  double       best   = std::numeric_limits<double>::infinity();
-  unsigned int waited = 0;
-};
 } // namespace
 
 Pcpg::Pcpg(const DualProblem &the_problem,
@@ -185,17 +131,16 @@ bool Pcpg::step(const MultiVector         &Z,
   return true;
 }
 
-PcpgResult Pcpg::solve(MultiVector               &lambda,
-                       MultiVector               &residual,
-                       const std::vector<double> &tolerances,
-                       unsigned int               max_iterations)
+KrylovResult Pcpg::solve(MultiVector               &lambda,
+                         MultiVector               &residual,
+                         const std::vector<double> &tolerances,
+                         unsigned int               max_iterations)
 {
   const unsigned int k = lambda.n_columns();
   AssertDimension(residual.n_columns(), k);
   AssertDimension(tolerances.size(), k);
-  PcpgResult          result;
-  StagnationTest      test;
-  std::vector<double> first;
+  KrylovResult  result;
+  KrylovColumns test(comm);
   correct(lambda, residual);
   for (MultiVector *directions : {&basis.P, &basis.FP})
     if (directions->n_columns() == 0 || k > 1)
@@ -206,49 +151,22 @@ PcpgResult Pcpg::solve(MultiVector               &lambda,
     {
       MultiVector r = residual;
       free_set.project(r);
-      MultiVector both = r;
-      both.append(residual);
-      const auto                sizes = norms(both, comm);
-      std::vector<unsigned int> remaining;
-      std::vector<double>       goals(k);
-      double                    worst       = 0.;
-      bool                      is_rounding = true;
-      if (result.iterations == 0)
-        first = sizes;
-      for (unsigned int j = 0; j < k; ++j)
-        {
-          // The projection subtracts numbers of the size of the residual, most of which may be
-          // rigid motion. Its result cannot be brought below their rounding error.
-          goals[j] = std::max(tolerances[j], projection_rounding * sizes[k + j]);
-          if (sizes[j] <= goals[j])
-            continue;
-          remaining.push_back(j);
-          worst       = std::max(worst, sizes[j] / first[j]);
-          is_rounding = is_rounding && sizes[j] <= residual_rounding * sizes[k + j];
-        }
-      result.residual_norms.assign(sizes.begin(), sizes.begin() + k);
-      result.converged = remaining.empty();
-      if (result.converged || result.iterations == max_iterations)
+      if (test.ends(r, residual, tolerances, max_iterations, result))
         return result;
-      if (test.stagnates(worst, is_rounding))
-        {
-          result.converged = result.at_rounding = is_rounding;
-          return result;
-        }
       std::vector<double> removed;
-      const MultiVector   Z = new_directions(leading_part(r, remaining, goals, comm), removed);
+      const MultiVector   Z = new_directions(test.leading_part(r), removed);
       if (Z.n_columns() == 0 || !step(Z, removed, lambda, residual))
         return result;
       ++result.iterations;
     }
 }
 
-PcpgResult pcpg(const DualProblem         &problem,
-                const FreeSet             &free_set,
-                MultiVector               &lambda,
-                MultiVector               &residual,
-                const std::vector<double> &tolerances,
-                unsigned int               max_iterations)
+KrylovResult pcpg(const DualProblem         &problem,
+                  const FreeSet             &free_set,
+                  MultiVector               &lambda,
+                  MultiVector               &residual,
+                  const std::vector<double> &tolerances,
+                  unsigned int               max_iterations)
 {
   return Pcpg(problem, free_set).solve(lambda, residual, tolerances, max_iterations);
 }

@@ -5,15 +5,16 @@ namespace snug::sensitivity {
 class SensitivityQp::PartOfFreeSet : public qp::FreeSet
 {
 public:
-  PartOfFreeSet(const SensitivityQp &problem, const qp::RowSet &free) : problem(problem), free(free)
+  PartOfFreeSet(const SensitivityQp &problem, const qp::FreeRows &free)
+    : problem(problem), free(free)
   {
     qp::RowSet of_all(problem.feti.n_owned(), 0);
-    for (unsigned int i = 0; i < free.size(); ++i)
-      of_all[problem.row[i]] = free[i];
+    for (unsigned int i = 0; i < free.rows().size(); ++i)
+      of_all[problem.row[i]] = free.rows()[i];
     whole = problem.feti.free_set(of_all);
   }
 
-  const qp::RowSet &rows() const override { return free; }
+  const qp::FreeRows &free_rows() const override { return free; }
 
   void project(qp::MultiVector &x) const override
   {
@@ -40,18 +41,11 @@ public:
     return left;
   }
 
-  std::vector<double> gap_closing_rates(const qp::MultiVector &e) const override
-  {
-    const auto          of_all = whole->gap_closing_rates(e);
-    std::vector<double> rates;
-    for (const unsigned int i : problem.row)
-      rates.push_back(of_all[i]);
-    return rates;
-  }
+  const qp::MultiVector &unresisted_motions() const override { return whole->unresisted_motions(); }
 
 private:
   const SensitivityQp         &problem;
-  const qp::RowSet             free;
+  const qp::FreeRows           free;
   std::unique_ptr<qp::FreeSet> whole;
 };
 
@@ -93,7 +87,7 @@ qp::MultiVector SensitivityQp::extended(const qp::MultiVector &x) const
   return all;
 }
 
-std::unique_ptr<qp::FreeSet> SensitivityQp::free_set(const qp::RowSet &free) const
+std::unique_ptr<qp::FreeSet> SensitivityQp::free_set(const qp::FreeRows &free) const
 {
   return std::make_unique<PartOfFreeSet>(*this, free);
 }

@@ -16,8 +16,9 @@ namespace snug::feti {
 class CoarseProblem
 {
 public:
-  /// Assemble and factorize the coarse problem of the face @p free. Collective.
-  CoarseProblem(const CoarseSpace &space, const qp::RowSet &free);
+  /// Assemble and factorize the coarse problem of the multipliers of @p free, G_M = G Z.
+  /// Collective.
+  CoarseProblem(const CoarseSpace &space, const qp::FreeRows &free);
 
   /// Return the number of steps of solve(): one, or five if some motions are hardly resisted.
   unsigned int n_steps() const { return W.n_columns() > 0 ? 5 : 1; }
@@ -30,8 +31,8 @@ public:
    */
   qp::MultiVector solve(const qp::MultiVector &c, unsigned int step) const;
 
-  /// Return N N' c.
-  qp::MultiVector kernel_part(const qp::MultiVector &c) const;
+  /// Return N.
+  const qp::MultiVector &kernel() const { return N; }
 
 private:
   std::shared_ptr<const SparseFactor> A;

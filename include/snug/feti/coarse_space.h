@@ -46,7 +46,7 @@ public:
   std::vector<unsigned int> representatives; ///< coarse coordinates of one subdomain per body
   /// matrix with the pattern of G G', in which the representatives of all bodies are coupled
   CsrMatrix                gram;
-  std::vector<std::size_t> bounded_places; ///< positions in gram to which contact rows contribute
+  std::vector<std::size_t> contact_places; ///< positions in gram to which contact rows contribute
   FactorPool               factors;        ///< factorizations of G_M G_M' of the faces
 
 private:
@@ -76,15 +76,15 @@ public:
 
   const CoarseStructure &structure() const { return pattern; }
 
-  /// Return G_M x summed over ranks (n_kernel x k). M is the set of all rows if @p free is null.
-  /// Collective.
-  qp::MultiVector multiply(const qp::MultiVector &x, const qp::RowSet *free) const;
+  /// Return G x summed over ranks (n_kernel x k). Collective.
+  qp::MultiVector multiply(const qp::MultiVector &x) const;
 
-  /// Return G_M' alpha on the owned rows. It is zero on rows outside M.
-  qp::MultiVector transpose_multiply(const qp::MultiVector &alpha, const qp::RowSet *free) const;
+  /// Return G' alpha on the owned rows.
+  qp::MultiVector transpose_multiply(const qp::MultiVector &alpha) const;
 
-  /// Return G_M G_M' in the pattern of CoarseStructure::gram. Collective.
-  CsrMatrix gram(const qp::RowSet &free) const;
+  /// Return G_M G_M' of the multipliers of @p free, G_M = G Z, in the pattern of
+  /// CoarseStructure::gram. Collective.
+  CsrMatrix gram(const qp::FreeRows &free) const;
 
   /// Return the orthonormal body modes in coarse coordinates, n_kernel x (n_bodies n_modes). They
   /// are equal on all ranks.
@@ -106,7 +106,10 @@ public:
 
 private:
   void set_body_modes(const std::vector<SubdomainSystem> &systems);
-  void add_row(unsigned int row, std::vector<double> &values) const;
+  void add_column(unsigned int row, const double *column, std::vector<double> &values) const;
+  std::vector<double> combined_column(const qp::FrictionCone      &cone,
+                                      double                       of_normal,
+                                      const std::array<double, 2> &of_tangents) const;
 
   const CoarseStructure &pattern;
   const RowLayout       &layout;

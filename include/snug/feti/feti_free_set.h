@@ -9,25 +9,37 @@ namespace snug::feti {
 class Linearization::FetiFreeSet : public qp::FreeSet
 {
 public:
-  FetiFreeSet(const Linearization &feti, const qp::RowSet &free);
+  FetiFreeSet(const Linearization &feti, const qp::FreeRows &free);
 
-  const qp::RowSet   &rows() const override;
+  const qp::FreeRows &free_rows() const override { return free; }
   void                project(qp::MultiVector &x) const override;
+  void                project_multipliers(qp::MultiVector &y) const override;
   std::vector<double> deflate(qp::MultiVector &x) const override;
   void minimize_over_deflated(qp::MultiVector &lambda, qp::MultiVector &residual) const override;
-  qp::MultiVector     precondition(const qp::MultiVector &r) const override;
-  qp::MultiVector     amplitudes(const qp::MultiVector &x) const override;
-  std::vector<double> make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override;
-  std::vector<double> gap_closing_rates(const qp::MultiVector &e) const override;
+  qp::MultiVector        precondition(const qp::MultiVector &r) const override;
+  qp::MultiVector        amplitudes(const qp::MultiVector &x) const override;
+  std::vector<double>    make_feasible(qp::MultiVector &x, const qp::MultiVector &e) const override;
+  const qp::MultiVector &unresisted_motions() const override;
 
 private:
-  const CoarseProblem &coarse_problem() const;
-  void restrict(qp::MultiVector &x) const;
-  void subtract_rigid_part(qp::MultiVector &x, qp::MultiVector &alpha) const;
+  /// One of the two maps of the free rows, M, with the coarse problem of G M.
+  struct Side
+  {
+    qp::FreeRows                           free; ///< its multipliers are M y
+    mutable std::unique_ptr<CoarseProblem> problem;
+  };
+
+  const CoarseProblem &coarse_problem(const Side &side) const;
+  qp::MultiVector      multiply(const Side &side, qp::MultiVector y) const;
+  qp::MultiVector      transpose_multiply(const Side &side, const qp::MultiVector &alpha) const;
+  void subtract_rigid_part(const Side &side, qp::MultiVector &x, qp::MultiVector &alpha) const;
+  void scale_slips(qp::MultiVector &z) const;
+  /// Return the side of the multipliers. Without slips both sides have the same coarse problem.
+  const Side &of_multipliers() const { return free.slips().empty() ? equations : multipliers; }
 
   const Linearization                     &feti;
-  qp::RowSet                               free;
-  mutable std::unique_ptr<CoarseProblem>   problem;
+  qp::FreeRows                             free;
+  Side                                     equations, multipliers;
   mutable std::unique_ptr<RowGram::Factor> gram;
 };
 } // namespace snug::feti

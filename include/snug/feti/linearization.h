@@ -47,7 +47,7 @@ public:
   RunContext                         &context() const { return structure.cache.context; }
   const RowLayout                    &layout() const { return structure.layout; }
   unsigned int                        n_owned() const { return layout().n_owned(); }
-  const qp::RowSet                   &bounded() const { return layout().bounded(); }
+  const qp::RowSet                   &contact_rows() const { return layout().contact_rows(); }
   const SubdomainTable               &table() const { return structure.coarse.table; }
   const std::vector<SubdomainSystem> &subdomains() const { return systems; }
   const ConstraintRows               &B() const { return rows; }
@@ -67,7 +67,7 @@ public:
   qp::MultiVector apply(const qp::MultiVector &x) const;
 
   /// Return the face on which the rows @p free are free. Collective.
-  std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const;
+  std::unique_ptr<qp::FreeSet> free_set(const qp::FreeRows &free) const;
 
   /// Return B v of primal vectors on the owned rows. Collective.
   qp::MultiVector multiply_B(const PrimalVectors &v) const;

@@ -25,43 +25,47 @@ public:
    * @p f must outlive this object. Collective.
    * @param[in] g right-hand side of the owned rows [length].
    * @param[in] pairs for initial_active_set(); null: the active set begins with all rows.
-   * @throws SolveError if no contact forces balance the loads. The error names the body that
-   * escapes and its motion.
+   * @param[in] cones of the contacts with friction, one per contact.
+   * @throws SolveError if no contact forces within the cones balance the loads. The error names the
+   * body that escapes and its motion. Bounds of Tresca friction are not checked here.
    */
-  LoadedProblem(const Linearization &linearization,
-                const PrimalVectors &f,
-                qp::MultiVector      g,
-                const ContactPairs  *pairs = nullptr);
+  LoadedProblem(const Linearization          &linearization,
+                const PrimalVectors          &f,
+                qp::MultiVector               g,
+                const ContactPairs           *pairs = nullptr,
+                std::vector<qp::FrictionCone> cones = {});
 
   const Linearization &linearization() const { return linear; }
   const PrimalVectors &loads() const { return f; }
 
   const qp::MultiVector &g() const { return gap; }
 
-  RunContext                &context() const override { return linear.context(); }
-  unsigned int               n_owned() const override { return linear.n_owned(); }
-  const qp::RowSet          &bounded() const override { return linear.bounded(); }
-  const qp::MultiVector     &d() const override { return dual_load; }
-  const qp::MultiVector     &e() const override { return rigid_load; }
-  const std::vector<double> &diagonal() const override { return linear.diagonal(); }
+  RunContext                          &context() const override { return linear.context(); }
+  unsigned int                         n_owned() const override { return linear.n_owned(); }
+  const qp::RowSet                    &bounded() const override { return normal_rows; }
+  const std::vector<qp::FrictionCone> &cones() const override { return friction; }
+  const qp::MultiVector               &d() const override { return dual_load; }
+  const qp::MultiVector               &e() const override { return rigid_load; }
+  const std::vector<double>           &diagonal() const override { return linear.diagonal(); }
   qp::MultiVector apply(const qp::MultiVector &x) const override { return linear.apply(x); }
   qp::MultiVector apply_G(const qp::MultiVector &x) const override
   {
-    return linear.coarse().multiply(x, nullptr);
+    return linear.coarse().multiply(x);
   }
   qp::MultiVector apply_Gt(const qp::MultiVector &alpha) const override
   {
-    return linear.coarse().transpose_multiply(alpha, nullptr);
+    return linear.coarse().transpose_multiply(alpha);
   }
   double feasibility_scale(double force) const override
   {
     return gross_load + linear.coarse().norm() * force;
   }
-  std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override
+  std::unique_ptr<qp::FreeSet> free_set(const qp::FreeRows &free) const override
   {
     return linear.free_set(free);
   }
-  qp::RowSet initial_active_set() const override { return initial; }
+  std::string describe_motion(const qp::MultiVector &v) const override;
+  qp::RowSet  initial_active_set() const override { return initial; }
 
   /**
    * Move the bodies along the motions that the rows @p loaded leave free: u += R d and @p alpha +=
@@ -76,11 +80,12 @@ public:
 private:
   void check_equilibrium() const;
 
-  const Linearization &linear;
-  const PrimalVectors &f;
-  qp::MultiVector      gap, rigid_load, dual_load;
-  double               gross_load; ///< see gross_rigid_part()
-  qp::RowSet           initial;
+  const Linearization          &linear;
+  const PrimalVectors          &f;
+  qp::MultiVector               gap, rigid_load, dual_load;
+  double                        gross_load; ///< see gross_rigid_part()
+  std::vector<qp::FrictionCone> friction;
+  qp::RowSet                    normal_rows, initial;
 };
 
 /// Return one line for each body that the equality rows and the contacts in @p rows leave free to

@@ -50,15 +50,20 @@ public:
   class Factor
   {
   public:
-    Factor(const RowGram &gram, const qp::RowSet &free);
+    Factor(const RowGram &gram, const qp::FreeRows &free);
 
-    /// Set x <- W_M^{-1} x on M, and x <- 0 on rows outside M.
+    /// Set x <- W_M^{-1} x on M, and x <- 0 on rows outside M. Across slips M has one row.
     void solve(qp::MultiVector &x) const;
 
   private:
+    /// Replace the two tangential rows of slips by their combinations across and along the slip, or
+    /// go back. The row along the slip is not in M.
+    CsrMatrix turned(CsrMatrix matrix) const;
+
     const RowGram                      &gram;
-    qp::RowSet                          free;
-    std::shared_ptr<const SparseFactor> W; ///< factor of the contact group
+    const qp::FreeRows                  free;
+    qp::RowSet                          rows; ///< M, across slips in the first tangential row
+    std::shared_ptr<const SparseFactor> W;    ///< factor of the contact group
   };
 
 private:

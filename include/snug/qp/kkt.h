@@ -15,6 +15,9 @@ constexpr double projection_rounding = 64. * std::numeric_limits<double>::epsilo
 /// this part of d - F lambda, it may be the rounding error of both.
 constexpr double residual_rounding = 16. * projection_rounding;
 
+/// Part of the load that a set may leave unbalanced.
+constexpr double balance_tolerance = 1e-8;
+
 /// Residuals of the optimality conditions at a point; see kkt_residual().
 struct KktResidual
 {
@@ -51,6 +54,14 @@ KktResidual kkt_residual(const DualProblem &problem,
                          const MultiVector &lambda,
                          const MultiVector &residual,
                          double             scale);
+
+/**
+ * Return an estimate of the error of @p residual = d - F lambda after @p steps of a Krylov method,
+ * each of which adds rounding errors of about eps (|F lambda| + |d|). If it could hide a tenth of
+ * the tolerance, the residual must be computed anew. Collective.
+ */
+double
+recurrence_error(const DualProblem &problem, const MultiVector &residual, unsigned int steps);
 
 /**
  * Return, for each owned row, the force that may be rounding error alone. It is the maximum of a

@@ -2,20 +2,9 @@
 #define snug_qp_pcpg_h
 
 #include <snug/qp/direction_basis.h>
+#include <snug/qp/krylov_columns.h>
 
 namespace snug::qp {
-struct PcpgResult
-{
-  unsigned int        iterations = 0;
-  std::vector<double> residual_norms; ///< ||P_M (d_j - F lambda_j)||
-  /// True if every column is within its tolerance or zero up to rounding. False if the iterations
-  /// ran out or the residual stalled.
-  bool converged = false;
-  /// True if the residual exceeds its tolerance, but is rounding error and has stalled. converged
-  /// is then true as well.
-  bool at_rounding = false;
-};
-
 /**
  * Block preconditioned conjugate projected gradients with full reorthogonalization for the linear
  * problems on a face,
@@ -51,10 +40,10 @@ public:
    * @param[in,out] residual d - F lambda for start and solution, updated by recurrence.
    * @param[in] tolerances absolute, one per column.
    */
-  PcpgResult solve(MultiVector               &lambda,
-                   MultiVector               &residual,
-                   const std::vector<double> &tolerances,
-                   unsigned int               max_iterations);
+  KrylovResult solve(MultiVector               &lambda,
+                     MultiVector               &residual,
+                     const std::vector<double> &tolerances,
+                     unsigned int               max_iterations);
 
   /// Return all directions so far.
   const DirectionBasis &directions() const { return basis; }
@@ -86,12 +75,12 @@ private:
 };
 
 /// Solve by Pcpg with an empty basis and forget the directions. Collective.
-PcpgResult pcpg(const DualProblem         &problem,
-                const FreeSet             &free_set,
-                MultiVector               &lambda,
-                MultiVector               &residual,
-                const std::vector<double> &tolerances,
-                unsigned int               max_iterations);
+KrylovResult pcpg(const DualProblem         &problem,
+                  const FreeSet             &free_set,
+                  MultiVector               &lambda,
+                  MultiVector               &residual,
+                  const std::vector<double> &tolerances,
+                  unsigned int               max_iterations);
 } // namespace snug::qp
 
 #endif

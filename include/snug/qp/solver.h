@@ -27,27 +27,34 @@ struct WarmStart
   MultiVector lambda; ///< n_owned x 1
   /// Free contact rows and all equality rows. If empty, the rows with a force in lambda are taken,
   /// unless the KKT residual of lambda is larger than that of a cold start. The solve then starts
-  /// cold.
+  /// cold. With friction, tangential forces at the limit then slip.
   RowSet active;
   /// Directions of an earlier solve with the same F; may be empty.
   DirectionBasis directions = {};
+  /// Contacts of the set @p active that slip; the others with free tangential rows stick.
+  std::vector<Slip> slips = {};
 };
 
 /**
  * Solution of the dual QP. All solvers have the same measure, the natural KKT residual: r_E = w_E,
  * r_i = -min(lambda_i F_ii, -w_i) with w = d - F lambda + G' alpha, relative to ||P (d - F
  * lambda_Im)||, plus ||G lambda - e|| relative to the loads and forces, see kkt_residual().
+ *
+ * With friction there is no minimum. The solution satisfies the same conditions of normal rows, and
+ * in each FrictionCone with the slip s = w_T:
+ * |lambda_T| <= b, and s = 0 or lambda_T = b s / |s|.
  */
 struct DualSolution
 {
-  MultiVector   lambda;     ///< n_owned x 1, >= 0 on bounded rows
-  MultiVector   residual;   ///< d - F lambda, n_owned x 1
-  MultiVector   amplitudes; ///< alpha, n_kernel x 1, on all ranks
-  RowSet        active;     ///< equality rows and active contact rows
-  double        kkt_residual     = 0.;
-  unsigned int  outer_iterations = 0;
-  unsigned long f_mults          = 0;
-  std::string   method; ///< the solver that finished
+  MultiVector       lambda;     ///< n_owned x 1, >= 0 on bounded rows
+  MultiVector       residual;   ///< d - F lambda, n_owned x 1
+  MultiVector       amplitudes; ///< alpha, n_kernel x 1, on all ranks
+  RowSet            active;     ///< equality rows, active contacts and tangential rows that stick
+  std::vector<Slip> slips;      ///< contacts that slip
+  double            kkt_residual     = 0.;
+  unsigned int      outer_iterations = 0;
+  unsigned long     f_mults          = 0;
+  std::string       method; ///< the solver that finished
   /// Directions of the linear problem on the active set, if the solver used any.
   DirectionBasis directions;
 };

@@ -58,7 +58,7 @@ public:
   {
     return gross_load + feti.linearization().coarse().norm() * force;
   }
-  std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override;
+  std::unique_ptr<qp::FreeSet> free_set(const qp::FreeRows &free) const override;
 
 private:
   class PartOfFreeSet;

@@ -238,7 +238,7 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
   structure = std::make_unique<feti::DualStructure>(*layout, table, parameters, *cache);
   qp::MultiVector gap(layout->n_owned());
   for (unsigned int i = 0; i < gap.n_rows(); ++i)
-    gap(i) = layout->bounded()[i] ? 0.01 : 0.;
+    gap(i) = layout->contact_rows()[i] ? 0.01 : 0.;
   linearization = std::make_unique<feti::Linearization>(*structure, mine, std::move(rows_of_B),
                                                         feti::SharedOperators(mine.size()));
   return std::make_unique<feti::LoadedProblem>(*linearization, loads, gap);

@@ -3,6 +3,7 @@
 
 #include "dense.h"
 
+#include <snug/qp/direction_basis.h>
 #include <snug/qp/dual_problem.h>
 
 #include <iostream>
@@ -11,9 +12,10 @@
 /// The data of a dual problem, whole on every rank.
 struct DenseData
 {
-  dense::Matrix    F, G, d, e;
-  dense::Matrix    preconditioner; ///< M^{-1} of all rows; none if empty
-  snug::qp::RowSet bounded;
+  dense::Matrix                       F, G, d, e;
+  dense::Matrix                       preconditioner; ///< M^{-1} of all rows; none if empty
+  snug::qp::RowSet                    bounded;
+  std::vector<snug::qp::FrictionCone> cones = {}; ///< of one rank
 };
 
 /// A dual problem with dense matrices; every rank owns a slice of the rows.
@@ -84,6 +86,8 @@ public:
 
   const RowSet &bounded() const override { return my_bounded; }
 
+  const std::vector<snug::qp::FrictionCone> &cones() const override { return data.cones; }
+
   const MultiVector &d() const override { return my_d; }
 
   const MultiVector &e() const override { return data.e; }
@@ -116,7 +120,7 @@ public:
     return dense::largest(data.e) + std::sqrt(square) * force;
   }
 
-  std::unique_ptr<snug::qp::FreeSet> free_set(const RowSet &free) const override;
+  std::unique_ptr<snug::qp::FreeSet> free_set(const snug::qp::FreeRows &free) const override;
 
   const DenseData            data;
   mutable std::ostringstream log;
@@ -136,82 +140,99 @@ public:
   using MultiVector = snug::qp::MultiVector;
   using RowSet      = snug::qp::RowSet;
 
-  DenseFace(const DenseProblem &problem, const RowSet &free)
-    : problem(problem), free(free), whole(problem.gather(free)), G(problem.data.G)
-  {
-    for (unsigned int j = 0; j < G.n_columns(); ++j)
-      if (!whole[j])
-        for (unsigned int i = 0; i < G.n_rows(); ++i)
-          G(i, j) = 0.;
-    inverse = dense::pseudo_inverse(dense::product(G, dense::transpose(G)));
-  }
+  using FreeRows = snug::qp::FreeRows;
 
-  const RowSet &rows() const override { return free; }
+  DenseFace(const DenseProblem &problem, const FreeRows &free)
+    : problem(problem)
+    , free(free)
+    , equations(problem, free.transpose())
+    , multipliers(problem, free)
+    , motions(problem.data.G.n_rows() == 0
+                ? MultiVector(0, 0)
+                : snug::qp::null_space(dense::transpose(equations.G),
+                                       1e-10 * dense::largest(problem.data.G)))
+  {}
 
-  void project(MultiVector &x) const override
-  {
-    const MultiVector alpha = amplitudes(x);
-    restrict(x);
-    x.add(-1., problem.slice(dense::product(dense::transpose(G), alpha)));
-  }
+  const FreeRows &free_rows() const override { return free; }
+
+  void project(MultiVector &x) const override { subtract_rigid_part(equations, x); }
+
+  void project_multipliers(MultiVector &y) const override { subtract_rigid_part(multipliers, y); }
 
   MultiVector precondition(const MultiVector &r) const override
   {
     problem.context().work.preconditioner_applications += r.n_columns();
     MultiVector z = r;
-    restrict(z);
+    free.restrict(z);
     if (problem.data.preconditioner.n_rows() == 0)
       return z;
     z = problem.slice(dense::product(problem.data.preconditioner, problem.gather(z)));
-    restrict(z);
+    free.restrict(z);
     return z;
   }
 
   MultiVector amplitudes(const MultiVector &x) const override
   {
-    return dense::product(inverse, dense::product(G, problem.gather(x)));
+    MultiVector y = x;
+    free.restrict(y);
+    return dense::product(equations.inverse, dense::product(equations.G, problem.gather(y)));
   }
 
   std::vector<double> make_feasible(MultiVector &x, const MultiVector &e) const override
   {
-    restrict(x);
+    free.restrict(x);
     const MultiVector missing = unbalanced(x, e);
-    x.add(1., problem.slice(dense::product(dense::transpose(G), dense::product(inverse, missing))));
-    return norms(unbalanced(x, e), MPI_COMM_SELF);
+    x.add(1., problem.slice(dense::product(dense::transpose(multipliers.G),
+                                           dense::product(multipliers.inverse, missing))));
+    const auto left = norms(unbalanced(x, e), MPI_COMM_SELF);
+    free.expand(x);
+    return left;
   }
 
-  std::vector<double> gap_closing_rates(const MultiVector &e) const override
-  {
-    // (I - G G' (G G')^+) e moves the bodies
-    MultiVector motion = e;
-    motion.add(-1.,
-               dense::product(G, dense::product(dense::transpose(G), dense::product(inverse, e))));
-    const MultiVector rates = problem.apply_Gt(motion);
-    return std::vector<double>(rates.column(0), rates.column(0) + rates.n_rows());
-  }
+  const MultiVector &unresisted_motions() const override { return motions; }
 
 private:
-  void restrict(MultiVector &x) const
+  /// G M of one of the two maps, with (G M M'G')^+.
+  struct Side
   {
-    for (unsigned int j = 0; j < x.n_columns(); ++j)
-      for (unsigned int i = 0; i < x.n_rows(); ++i)
-        if (!free[i])
-          x(i, j) = 0.;
+    Side(const DenseProblem &problem, const FreeRows &free)
+    {
+      const unsigned int n = problem.data.F.n_rows();
+      dense::Matrix      unit(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        unit(i, i) = 1.;
+      MultiVector M = problem.slice(unit);
+      free.restrict(M);
+      free.expand(M);
+      G       = dense::product(problem.data.G, problem.gather(M));
+      inverse = dense::pseudo_inverse(dense::product(G, dense::transpose(G)));
+    }
+
+    dense::Matrix G, inverse;
+  };
+
+  void subtract_rigid_part(const Side &side, MultiVector &x) const
+  {
+    free.restrict(x);
+    const auto alpha = dense::product(side.inverse, dense::product(side.G, problem.gather(x)));
+    x.add(-1., problem.slice(dense::product(dense::transpose(side.G), alpha)));
   }
 
-  MultiVector unbalanced(const MultiVector &x, const MultiVector &e) const
+  MultiVector unbalanced(const MultiVector &y, const MultiVector &e) const
   {
     MultiVector result = e;
-    result.add(-1., dense::product(G, problem.gather(x)));
+    result.add(-1., dense::product(multipliers.G, problem.gather(y)));
     return result;
   }
 
   const DenseProblem &problem;
-  const RowSet        free, whole;
-  dense::Matrix       G, inverse;
+  const FreeRows      free;
+  const Side          equations, multipliers;
+  const MultiVector   motions;
 };
 
-inline std::unique_ptr<snug::qp::FreeSet> DenseProblem::free_set(const RowSet &free) const
+inline std::unique_ptr<snug::qp::FreeSet>
+DenseProblem::free_set(const snug::qp::FreeRows &free) const
 {
   ++n_faces;
   return std::make_unique<DenseFace>(*this, free);

@@ -60,7 +60,7 @@ RowSet every_row_but_fifths(unsigned int n)
 struct Solved
 {
   dense::Matrix lambda;
-  PcpgResult    result;
+  KrylovResult  result;
   unsigned long f_mults;
 };
 

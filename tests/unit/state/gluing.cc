@@ -49,7 +49,7 @@ std::pair<double, double> distance_from_orthonormal(const Problem<dim> &problem)
     for (const RowEntry &a : column.second)
       for (const RowEntry &b : column.second)
         BB[{a.row, b.row}] += a.value * b.value;
-  const auto &bounded = problem.solver.gluing(0).layout().bounded();
+  const auto &bounded = problem.solver.gluing(0).layout().contact_rows();
   double      gluing = 0., all = 0.;
   for (const auto &entry : BB)
     {
@@ -157,7 +157,7 @@ void expect_rows_of_B(const TestScene<dim> &scene)
   const auto   Bu     = problem.solver.feti(state).linearization().multiply_B(u);
   const auto  &gluing = problem.solver.gluing(0);
   for (unsigned int i = 0; i < Bu.n_rows(); ++i)
-    EXPECT_TRUE(gluing.layout().bounded()[i] || std::abs(Bu(i)) < 1e-13);
+    EXPECT_TRUE(gluing.layout().contact_rows()[i] || std::abs(Bu(i)) < 1e-13);
   // contact rows: the physical row over nr, on the displacement field
   const auto                  &surface = problem.solver.surface();
   typename Problem<dim>::Field field(problem.mesh.n_local_nodes());

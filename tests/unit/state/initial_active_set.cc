@@ -43,7 +43,7 @@ public:
   qp::MultiVector apply_G(const qp::MultiVector &x) const override { return problem.apply_G(x); }
   qp::MultiVector apply_Gt(const qp::MultiVector &a) const override { return problem.apply_Gt(a); }
   double feasibility_scale(double f) const override { return problem.feasibility_scale(f); }
-  std::unique_ptr<qp::FreeSet> free_set(const qp::RowSet &free) const override
+  std::unique_ptr<qp::FreeSet> free_set(const qp::FreeRows &free) const override
   {
     return problem.free_set(free);
   }

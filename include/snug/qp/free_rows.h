@@ -1,0 +1,98 @@
+#ifndef snug_qp_free_rows_h
+#define snug_qp_free_rows_h
+
+#include <snug/qp/multi_vector.h>
+
+#include <array>
+#include <vector>
+
+namespace snug::qp {
+/// One flag per row of the dual problem owned by this rank.
+using RowSet = std::vector<unsigned char>;
+
+/**
+ * Friction cone of one contact, on the rows that this rank owns. The multipliers of the tangential
+ * rows are limited by
+ * @f[ |\lambda_T| \le b = \mu \max(\lambda_N, 0) + \beta @f]
+ * while the contact is closed, and are zero while it is open. Coulomb friction has beta = 0,
+ * Tresca friction has mu = 0.
+ */
+struct FrictionCone
+{
+  unsigned int                normal;           ///< owned row of lambda_N
+  std::array<unsigned int, 2> tangents    = {}; ///< owned rows of lambda_T
+  unsigned int                n_tangents  = 0;  ///< 1 or 2
+  double                      coefficient = 0.; ///< mu
+  double                      bound       = 0.; ///< beta [force]
+
+  /// Return b for the multipliers @p lambda; 0 where lambda_N is not positive.
+  double limit(const MultiVector &lambda) const;
+  /// Return the greater of the estimates F_ii of the tangential rows [displacement / force].
+  double compliance(const std::vector<double> &diagonal) const;
+  /// Return lambda_T + w_T / @p compliance for the slip w_T. The contact sticks if it lies within
+  /// the cone.
+  std::array<double, 2>
+  trial_force(double compliance, const MultiVector &lambda, const MultiVector &w) const;
+};
+
+/// A closed contact that slips along the unit vector n^ of its tangential rows.
+struct Slip
+{
+  FrictionCone          cone;
+  std::array<double, 2> direction  = {}; ///< n^; with one tangent 1 or -1
+  double                compliance = 0.; ///< D of FreeRows [displacement / force]
+
+  /// Return the unit vector across n^, for two tangents.
+  std::array<double, 2> across() const { return {{-direction[1], direction[0]}}; }
+};
+
+/**
+ * This class describes the multipliers that are free to change in a linear problem of the dual:
+ * the flagged rows, and contacts that slip. Friction forces of slipping contacts are eliminated.
+ * With the values y of the other free multipliers,
+ * @f[ \lambda = Z y + \beta\text{-part}, \qquad
+ *     Z = Z_0 + \mu \hat n \text{ in the tangential rows of the column of } \lambda_N, @f]
+ * where the columns of Z_0 are unit vectors of flagged rows and, for slipping contacts with two
+ * tangential rows, the direction across n^. Their equations are
+ * @f[ Z_0^T (d - F \lambda + G^T \alpha) = D y, @f]
+ * where D is zero except across n^, where D = |s| / b: a force across n^ turns the slip s.
+ * Derivatives by the adjoint method need the transposed system, in which Z_0 and Z change places.
+ *
+ * The values y are stored as vectors with all owned rows, Z_0 y.
+ */
+class FreeRows
+{
+public:
+  /// The rows of slipping contacts: the normal row is flagged, tangential rows are not.
+  FreeRows(RowSet rows = {}, std::vector<Slip> slips = {}, bool transposed = false);
+
+  const RowSet            &rows() const { return flags; }
+  const std::vector<Slip> &slips() const { return slipping; }
+  bool                     is_transposed() const { return transposed; }
+
+  /// Return the same free rows with Z_0 and Z exchanged.
+  FreeRows transpose() const { return {flags, slipping, !transposed}; }
+
+  /// Set x <- Z_0 Z_0' x.
+  void restrict(MultiVector &x) const;
+
+  /// Set y <- Z y for y = Z_0 Z_0' y; in the transposed system y does not change.
+  void expand(MultiVector &y) const;
+
+  /// Set r <- Z_0 Z_0' r; in the transposed system r <- Z_0 Z' r.
+  void reduce(MultiVector &r) const;
+
+  /// Add factor D y to @p r, for y = Z_0 Z_0' y.
+  void add_compliance(double factor, const MultiVector &y, MultiVector &r) const;
+
+  /// Return reduce(residual) - D y, where y is the free part of @p lambda.
+  MultiVector reduced_residual(const MultiVector &lambda, MultiVector residual) const;
+
+private:
+  RowSet            flags;
+  std::vector<Slip> slipping;
+  bool              transposed;
+};
+} // namespace snug::qp
+
+#endif

@@ -1,0 +1,108 @@
+#include <snug/qp/independent_columns.h>
+#include <snug/qp/projected_gcr.h>
+
+namespace snug::qp {
+namespace {
+/// Directions are linearly dependent if a pivot of the Gram matrix of their images, scaled to unit
+/// diagonal, is below this value.
+const double image_dependence = 1e-6;
+
+/// The image of a direction is rounding error if orthogonalization leaves less than this part of
+/// the square of its norm.
+const double image_noise = 1e-20;
+} // namespace
+
+ProjectedGcr::ProjectedGcr(const DualProblem &the_problem,
+                           const FreeSet     &the_face,
+                           const bool         the_deflates)
+  : problem(the_problem)
+  , free_set(the_face)
+  , deflates(the_deflates)
+  , comm(the_problem.context().communicator())
+  , directions(the_problem.n_owned(), 0)
+  , images(the_problem.n_owned(), 0)
+  , projected(the_problem.n_owned(), 0)
+{}
+
+MultiVector ProjectedGcr::projected_residual(const MultiVector &lambda,
+                                             const MultiVector &residual) const
+{
+  MultiVector r = free_set.free_rows().reduced_residual(lambda, residual);
+  free_set.project(r);
+  return r;
+}
+
+/// Minimize the projected residuals @p r over the directions from @p first on.
+void ProjectedGcr::minimize(const unsigned int first,
+                            const MultiVector &r,
+                            MultiVector       &lambda,
+                            MultiVector       &residual) const
+{
+  const unsigned int n = projected.n_columns() - first;
+  if (n == 0)
+    return;
+  const MultiVector a = inner_products(projected.columns_from(first, n), r, comm);
+  lambda.add_product(1., directions.columns_from(first, n), a);
+  residual.add_product(-1., images.columns_from(first, n), a);
+}
+
+/// Add directions from the projected residuals @p r. Return false if they add nothing but rounding
+/// errors.
+bool ProjectedGcr::add_directions(const MultiVector &r)
+{
+  const FreeRows &free = free_set.free_rows();
+  MultiVector     y    = free_set.precondition(r);
+  free_set.project_multipliers(y);
+  MultiVector z = y;
+  free.expand(z);
+  if (deflates)
+    free_set.deflate(z);
+  MultiVector Fz = problem.apply(z), q = Fz;
+  free.reduce(q);
+  // The directions C are zero on contact rows, so that z has the y of before there.
+  free.add_compliance(1., y, q);
+  free_set.project(q);
+  std::vector<double> smallest;
+  for (const double length : norms(q, comm))
+    smallest.push_back(image_noise * length * length);
+  // Orthogonalize twice, because once leaves rounding errors of the size of the removed part.
+  for (unsigned int pass = 0; pass < 2 && projected.n_columns() > 0; ++pass)
+    {
+      const MultiVector a = inner_products(projected, q, comm);
+      z.add_product(-1., directions, a);
+      Fz.add_product(-1., images, a);
+      q.add_product(-1., projected, a);
+    }
+  const MultiVector C =
+    orthonormal_combinations(inner_products(q, q, comm), smallest, image_dependence);
+  if (C.n_columns() == 0)
+    return false;
+  directions.append(times(z, C));
+  images.append(times(Fz, C));
+  projected.append(times(q, C));
+  return true;
+}
+
+KrylovResult ProjectedGcr::solve(MultiVector               &lambda,
+                                 MultiVector               &residual,
+                                 const std::vector<double> &tolerances,
+                                 const unsigned int         max_iterations)
+{
+  KrylovResult  result;
+  KrylovColumns columns(comm);
+  if (deflates)
+    free_set.minimize_over_deflated(lambda, residual);
+  minimize(0, projected_residual(lambda, residual), lambda, residual);
+  while (true)
+    {
+      const MultiVector r = projected_residual(lambda, residual);
+      if (columns.ends(r, residual, tolerances, max_iterations, result))
+        return result;
+      const unsigned int known = projected.n_columns();
+      if (!add_directions(columns.leading_part(r)))
+        return result;
+      minimize(known, r, lambda, residual);
+      ++result.iterations;
+    }
+}
+} // namespace snug::qp

@@ -1,0 +1,86 @@
+#include "friction_cases.h"
+
+#include <snug/base/errors.h>
+#include <snug/qp/active_set.h>
+#include <snug/qp/projected_gcr.h>
+
+#include <gtest/gtest.h>
+
+using namespace snug::qp;
+
+namespace {
+SolverParameters to(const double tolerance)
+{
+  SolverParameters parameters;
+  parameters.relative_tolerance = tolerance;
+  return parameters;
+}
+
+/// Contacts belong to one rank, which owns all rows of these small problems.
+DualSolution solve(const DenseProblem &problem,
+                   const double        tolerance,
+                   const WarmStart    &start = {MultiVector(), {}})
+{
+  return ActiveSet(to(tolerance)).solve(problem, start);
+}
+} // namespace
+
+TEST(Friction, AgreesWithGaussSeidelOnHeldBodies)
+{
+  for (const unsigned int n_tangents : {1u, 2u})
+    for (unsigned int seed = 0; seed < 20; ++seed)
+      {
+        FrictionCase of;
+        of.n_tangents           = n_tangents;
+        of.floating             = false;
+        of.coefficient          = 0.1 * (1 + seed % 5);
+        of.shear                = 1.;
+        of.seed                 = seed;
+        of.bound                = seed % 4 == 3 ? 0.1 : 0.;
+        const auto         data = friction_data(of);
+        const DenseProblem problem(data, 1);
+        const auto         solution = solve(problem, 1e-12);
+        const auto         lambda   = problem.gather(solution.lambda);
+        EXPECT_LT(friction_errors(data, lambda, solution.amplitudes).worst(), 1e-10) << seed;
+        EXPECT_LT(dense::distance(gauss_seidel(data, 4000), lambda), 1e-8) << seed;
+      }
+}
+
+TEST(Friction, SolvesOrRefusesRandomCases)
+{
+  unsigned int  solved = 0, refused = 0, not_converged = 0;
+  unsigned long most = 0;
+  for (const unsigned int n_tangents : {1u, 2u})
+    for (unsigned int seed = getenv("SEED") ? atoi(getenv("SEED")) : 0;
+         seed < (getenv("SEED") ? atoi(getenv("SEED")) + 1u : 300u); ++seed)
+      {
+        FrictionCase of;
+        of.n_tangents           = n_tangents;
+        of.coefficient          = 0.1 + 0.05 * (seed % 19);
+        of.shear                = 0.1 * (seed % 10);
+        of.contrast             = seed % 3 == 0 ? 100. : 3.;
+        of.seed                 = seed;
+        const auto         data = friction_data(of);
+        const DenseProblem problem(data, 1);
+        try
+          {
+            const auto solution = solve(problem, 1e-10);
+            const auto lambda   = problem.gather(solution.lambda);
+            EXPECT_LT(friction_errors(data, lambda, solution.amplitudes).worst(), 1e-7)
+              << n_tangents << " " << seed;
+            ++solved;
+            most = std::max(most, solution.f_mults);
+          }
+        catch (const snug::SolveError &error)
+          {
+            const std::string what = error.what();
+            (what.find("slides") == std::string::npos &&
+                 what.find("no equilibrium") == std::string::npos
+               ? not_converged
+               : refused) += 1;
+            std::cout << n_tangents << " " << seed << " " << what << "\n";
+          }
+      }
+  std::cout << solved << " " << refused << " " << not_converged << " " << most << "\n";
+  EXPECT_LE(not_converged, 6u);
+}
