@@ -66,7 +66,7 @@ public:
   {
     std::vector<response::Partials<dim>> partials;
     for (unsigned int j = 0; j < responses.size(); ++j)
-      if (sensitivity::needs_solve(*responses[j]))
+      if (sensitivity::needs_solve(*responses[j], solver.has_friction()))
         {
           column[j] = partials.size();
           partials.push_back(responses[j]->partials(solver, state));
@@ -96,7 +96,7 @@ public:
           -derivative.stiffness, u.displacement);
     const auto &gluing = solver.gluing(load_case);
     const auto  forces = gluing.gather_contact(dual.column(column[j]));
-    for (unsigned int i = 0; i < forces.size(); ++i)
+    for (unsigned int i = 0; i < gluing.n_contact_rows(); ++i)
       {
         const double scale = gluing.contact_scales()[i];
         z.pressures.push_back(scale > 0. ? pressure(forces[i] / scale, areas[i]) : 0.);
@@ -274,7 +274,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
     {
       if (responses[j]->needs_solution())
         derivatives[j] = responses[j]->field_derivative(solver, state);
-      if (!sensitivity::needs_solve(*responses[j]))
+      if (!sensitivity::needs_solve(*responses[j], solver.has_friction()))
         continue;
       place[j] = all.size();
       all.push_back(adjoints.of(j, derivatives[j], all[0]));
@@ -294,7 +294,8 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
   for (unsigned int j = 0; j < responses.size(); ++j)
     {
       const bool   is_geometry = !responses[j]->needs_solution();
-      const double sign        = is_geometry ? 0. : responses[j]->stationary() ? -1. : 1.;
+      const bool   stationary  = !is_geometry && place[j] == 0;
+      const double sign        = is_geometry ? 0. : stationary ? -1. : 1.;
       const double s           = derivatives[j].stiffness;
       const auto  &z           = all[place[j]];
       const auto   cells       = in_cells(products, layer, place[j], sign, s / 2.);
@@ -315,7 +316,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
         }
       // J depends on loads through the state and, where J contains their work, directly.
       if (!is_geometry)
-        one.add_data(loads.works(responses[j]->stationary()
+        one.add_data(loads.works(stationary
                                    ? z.displacement
                                    : sum(z.displacement, s + z.loads, all[0].displacement)),
                      1., solver.mesh().communicator());

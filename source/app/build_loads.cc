@@ -253,6 +253,8 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
         body.gravity += to_tensor<dim>(of.gravity);
       LoadBuilder<dim>(scene, mesh, "Load case " + of.name, "").add(of.loads, cases.back());
       cases.back().position = position_of<dim>(scene, of);
+      if (of.load_step && cases.size() > 1)
+        cases.back().after = static_cast<unsigned int>(cases.size()) - 2;
       if (of.loads_in_space)
         turn_loads_back(cases.back());
     }

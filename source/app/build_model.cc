@@ -35,7 +35,8 @@ double state_tolerance(const scene::Scene &scene)
   const auto feels_errors = [&scene](const std::string &name) {
     const auto parameters =
       scene::response_called(scene, scene::constraint_name(scene, name).response);
-    return sensitivity::needs_solve(*response::make_response<dim>(*parameters));
+    return sensitivity::needs_solve(*response::make_response<dim>(*parameters),
+                                    scene::has_friction(scene));
   };
   bool sharp = feels_errors(scene.optimization.objective);
   for (const auto &constraint : scene.optimization.constraints)

@@ -149,8 +149,7 @@ Analysis<dim> &Evaluator<dim>::analysis(const Design &design)
       if (is_predicted())
         parameters.method = sensitivity::Method::direct;
       current->gradients =
-        sensitivity::gradients_of_cases(problem.load_cases(current->states, design, parameters),
-                                        measured);
+        sensitivity::gradients(problem.load_cases(current->states, design, parameters), measured);
       auto                                   &of_cases = current->gradients.of_response;
       std::vector<sensitivity::Gradient<dim>> combined, terms;
       for (const Quantity &quantity : quantities)

@@ -46,7 +46,7 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
   : problem(problem), results(results), states(states)
 {
   choose_method();
-  bool one_sided = sensitivity::needs_solve(*problem.objective) &&
+  bool one_sided = sensitivity::needs_solve(*problem.objective, problem.solver->has_friction()) &&
                    std::any_of(states.begin(), states.end(),
                                [](const auto &state) { return state.weak_contacts > 0; });
   if (one_sided)
@@ -82,7 +82,8 @@ void Sensitivity<dim>::choose_method()
       return;
     }
   const auto choice =
-    sensitivity::cheapest_methods<dim>({problem.objective.get()}, problem.shapes->n_variables())
+    sensitivity::cheapest_methods<dim>({problem.objective.get()}, problem.shapes->n_variables(),
+                                       problem.solver->has_friction())
       .front();
   chosen          = choice.method;
   gradient.reason = choice.reason;
@@ -104,7 +105,7 @@ std::vector<typename Sensitivity<dim>::Method> Sensitivity<dim>::methods() const
     return {by(chosen, given.derivatives)};
   const auto         &response = *problem.objective;
   std::vector<Method> list;
-  if (!sensitivity::needs_solve(response))
+  if (!sensitivity::needs_solve(response, problem.solver->has_friction()))
     list.push_back(by(By::energy, Derivatives::exact));
   if (response.needs_solution())
     {

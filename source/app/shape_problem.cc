@@ -60,7 +60,8 @@ ShapeProblem<dim>::solve(const Design &design, const std::vector<qp::WarmStart> 
   const auto x = positions(design);
   for (unsigned int c = 0; c < n_load_cases(); ++c)
     states.push_back(with_file_context(scene, [&]() {
-      return solver->solve(x, starts.empty() ? solver->scaled_start(states, x, c) : starts[c], c);
+      return solver->solve(x, starts.empty() ? solver->scaled_start(states, x, c) : starts[c], c,
+                           states);
     }));
   return states;
 }

@@ -31,7 +31,11 @@ void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
     out << " of a solution with the relative tolerance " << state.tolerance;
   out << ", relative errors: equilibrium " << errors.equilibrium << ", continuity "
       << errors.continuity << ", penetration " << errors.penetration << ", negative pressure "
-      << errors.negative_pressure << ", complementarity " << errors.complementarity << std::endl;
+      << errors.negative_pressure << ", complementarity " << errors.complementarity;
+  if (state.has_friction())
+    out << ", cone " << errors.cone << ", creep " << errors.creep << ", dissipation "
+        << errors.dissipation;
+  out << std::endl;
 }
 
 /// In the plane only the last component.
@@ -53,6 +57,10 @@ void print_state(std::ostream &out, const state::ContactState<dim> &state)
       << ", strain energy " << state.strain_energy << "\ncontact force (" << state.contact_force
       << "), contact area " << state.contact_area << ", peak pressure " << state.max_pressure
       << '\n';
+  if (state.has_friction())
+    out << "friction: " << state.slipping_contacts << " of "
+        << counted(state.active_contacts, "contact") << " slip, dissipation " << state.dissipation
+        << '\n';
 }
 
 template <int dim>

@@ -9,8 +9,8 @@ namespace {
 /// Step of the difference quotients of gap formulas, as a fraction of the size of the slave faces.
 const double gap_step = 1. / 25.;
 
-/// Return the length of the part of @p v at right angles to @p normal [length]. Rows do not resist
-/// this part, because contact is without friction.
+/// Return the length of the part of @p v at right angles to @p normal [length]. Normal rows do not
+/// resist this part.
 template <int dim>
 double along(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, dim> &normal)
 {
@@ -53,18 +53,20 @@ void Contact<dim>::collect_dependent_multipliers()
 }
 
 template <int dim>
-void Contact<dim>::measure_pairing(const Field &positions)
+void Contact<dim>::measure_pairing(const Field &positions, const std::vector<Row<dim>> &paired)
 {
-  const auto paired   = rows(positions);
   const auto sizes    = node_face_sizes(surface, positions);
   const auto in_space = placed.to_space(positions);
   paired_rows.assign(paired.size(), {});
+  row_nodes.assign(paired.size(), {});
   paired_offsets.clear();
   gaps.assign(groups.size(), {});
   for (unsigned int i = 0; i < paired.size(); ++i)
     {
       const auto &[p, slave, of] = row_places[i];
       paired_offsets.push_back(slave_minus_master(paired[i], in_space));
+      for (const auto &coefficient : paired[i].coefficients)
+        row_nodes[i].push_back(coefficient.first);
       if (!chosen[p].obstacle && chosen[p].parameters.method == Method::mortar)
         paired_rows[i] = paired[i];
       double gap = paired[i].gap;
@@ -138,28 +140,46 @@ std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
   return placed.turned_back(std::move(result));
 }
 
+/// Return the derivatives of sum_i force_i (sum_b c_ib . u_b - gap_i) with respect to the rows.
 template <int dim>
-typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field               &positions,
-                                                           const Field               &displacement,
-                                                           const std::vector<double> &forces) const
+std::vector<RowSlopes<dim>> Contact<dim>::energy_slopes(const Field               &moved,
+                                                        const std::vector<double> &forces) const
+{
+  std::vector<RowSlopes<dim>> slopes(forces.size());
+  for (unsigned int i = 0; i < forces.size(); ++i)
+    if (forces[i] != 0.)
+      {
+        slopes[i].gap = -forces[i];
+        for (const unsigned int node : row_nodes[i])
+          slopes[i].coefficients.push_back(forces[i] * moved[node]);
+      }
+  return slopes;
+}
+
+template <int dim>
+typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field              &positions,
+                                                           const Field              &displacement,
+                                                           const ContactForces<dim> &forces) const
 {
   AssertDimension(positions.size(), surface.n_points());
   AssertDimension(displacement.size(), surface.n_nodes());
-  AssertDimension(forces.size(), n_rows());
+  AssertDimension(forces.normal.size(), n_rows());
   const auto in_space = placed.to_space(positions), moved = placed.turned(displacement);
   Field      gradient(surface.n_points()), of_offsets     = gradient;
-  auto       first = forces.begin();
+  auto       slopes = energy_slopes(moved, forces.normal);
+  if (!forces.tangential.empty())
+    add_tangential_slopes(positions, moved, forces.tangential, slopes, gradient);
+  auto first = slopes.cbegin();
   for (const Group &group : groups)
     {
-      const auto               &slaves = group.rows->slaves();
-      const std::vector<double> of_group(first, first + slaves.size());
+      const auto                       &slaves = group.rows->slaves();
+      const std::vector<RowSlopes<dim>> of_group(first, first + slaves.size());
       first += slaves.size();
-      group.rows->add_energy_gradient(in_space, moved, of_group, gradient);
+      group.rows->add_gradient(in_space, of_group, gradient);
       if (group.offset)
         for (unsigned int i = 0; i < slaves.size(); ++i)
-          // The energy is sum_i force_i (sum_b c_b . u_b - gap_i), so the gap has a minus sign.
-          of_offsets[slaves[i]] -=
-            of_group[i] *
+          of_offsets[slaves[i]] +=
+            of_group[i].gap *
             group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]), group.step);
     }
   gradient = placed.turned_back(std::move(gradient));
@@ -172,9 +192,9 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
 /// displacement.
 template <int dim>
 typename Contact<dim>::Field
-Contact<dim>::coefficient_gradient(const Field               &positions,
-                                   const Field               &displacement,
-                                   const std::vector<double> &forces) const
+Contact<dim>::coefficient_gradient(const Field              &positions,
+                                   const Field              &displacement,
+                                   const ContactForces<dim> &forces) const
 {
   auto       gradient = energy_gradient(positions, displacement, forces);
   const auto of_gaps  = energy_gradient(positions, Field(surface.n_nodes()), forces);

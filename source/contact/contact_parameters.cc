@@ -79,6 +79,15 @@ void PairParameters::declare(Entries &entries)
                                  {"false", "a deep initial overlap causes a warning, an overlap of "
                                            "more than two faces an error"}}),
               "Whether the sides may overlap initially.");
+  entries.add("Friction", friction, "The law of the tangential contact forces.");
+  entries.add("Friction coefficient", friction_coefficient,
+              allowed("a formula of x, y and, in 3D, z"),
+              "The ratio of the largest tangential force to the normal force, 0 or above, at the "
+              "reference position of each slave node. For Coulomb only.");
+  entries.add(
+    "Friction bound", friction_bound, allowed("a formula of x, y and, in 3D, z"),
+    "The largest tangential traction, 0 or above, at the reference position of each slave "
+    "node. For Tresca only. Units: force/length^2.");
 }
 
 void PairParameters::check(const SectionCheck &section) const
@@ -87,6 +96,14 @@ void PairParameters::check(const SectionCheck &section) const
                     largest_angle == PairParameters().largest_angle,
                   "Largest angle", to_text(largest_angle), "must be at most 60 for mortar");
   geometry::require_formula(section, "Gap", gap, gap);
+  geometry::require_formula(section, "Friction coefficient", friction_coefficient,
+                            friction_coefficient);
+  geometry::require_formula(section, "Friction bound", friction_bound, friction_bound);
+  section.require(friction == Friction::Coulomb || friction_coefficient == "0",
+                  "Friction coefficient", friction_coefficient,
+                  "must be 0 unless Friction = Coulomb");
+  section.require(friction == Friction::Tresca || friction_bound == "0", "Friction bound",
+                  friction_bound, "must be 0 unless Friction = Tresca");
 }
 
 void ContactParameters::declare(Entries &entries)

@@ -20,7 +20,8 @@ void exchange(Pair &pair)
 bool are_equal(const PairParameters &a, const PairParameters &b)
 {
   const auto all = [](const PairParameters &p) {
-    return std::tie(p.method, p.slave, p.search_distance, p.largest_angle, p.gap, p.interference);
+    return std::tie(p.method, p.slave, p.search_distance, p.largest_angle, p.gap, p.interference,
+                    p.friction, p.friction_coefficient, p.friction_bound);
   };
   return all(a) == all(b);
 }

@@ -210,18 +210,18 @@ std::vector<double> MortarRows<dim>::areas(const Field &positions) const
 /// Record one row at a time, as a function of its sum, positions and normals.
 template <int dim>
 std::vector<typename MortarRows<dim>::template RowSum<double>>
-MortarRows<dim>::add_sum_derivatives(const Field               &positions,
-                                     const Field               &normals,
-                                     const Field               &displacement,
-                                     const std::vector<double> &forces,
-                                     Field                     &gradient,
-                                     Field                     &normal_gradient) const
+MortarRows<dim>::add_sum_derivatives(const Field                       &positions,
+                                     const Field                       &normals,
+                                     const std::vector<RowSlopes<dim>> &of_rows,
+                                     Field                             &gradient,
+                                     Field                             &normal_gradient) const
 {
+  AssertDimension(of_rows.size(), multipliers.nodes.size());
   auto             sums = row_sums(Points<double>(positions));
   faces::Recording recording;
   for (unsigned int i = 0; i < sums.size(); ++i)
     {
-      if (forces[i] == 0.)
+      if (of_rows[i].coefficients.empty())
         {
           sums[i] = RowSum<double>(row_nodes[i].size());
           continue;
@@ -241,7 +241,7 @@ MortarRows<dim>::add_sum_derivatives(const Field               &positions,
       };
       for_each_number(
         [&](auto &variable, const double value) { variable = recording.variable(value); });
-      add_energy_derivatives(row(i, sum, x, n), displacement, forces[i], recording);
+      add_slopes(row(i, sum, x, n), of_rows[i], recording);
       recording.sweep();
       x.add_derivatives(gradient);
       n.add_derivatives(normal_gradient);
@@ -252,18 +252,17 @@ MortarRows<dim>::add_sum_derivatives(const Field               &positions,
 }
 
 template <int dim>
-void MortarRows<dim>::add_energy_gradient(const Field               &positions,
-                                          const Field               &displacement,
-                                          const std::vector<double> &forces,
-                                          Field                     &gradient) const
+void MortarRows<dim>::add_gradient(const Field                       &positions,
+                                   const std::vector<RowSlopes<dim>> &slopes,
+                                   Field                             &gradient) const
 {
   const faces::NodalNormals<dim> normals(surface, sides.slave, shape, positions, &held);
   Field                          normal_gradient(surface.n_nodes());
-  const auto slopes = add_sum_derivatives(positions, normals.normals(), displacement, forces,
-                                          gradient, normal_gradient);
+  const auto                     of_sums =
+    add_sum_derivatives(positions, normals.normals(), slopes, gradient, normal_gradient);
   normals.add_transpose(normal_gradient, gradient);
   for (const SlaveFace &face : faces)
-    add_face_gradient(face, slopes, positions, gradient);
+    add_face_gradient(face, of_sums, positions, gradient);
 }
 
 template <int dim>

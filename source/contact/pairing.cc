@@ -84,7 +84,9 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
         groups.erase(groups.begin() + p);
       }
   number_rows(x, q);
-  measure_pairing(positions);
+  const auto paired = rows(positions);
+  measure_pairing(positions, paired);
+  make_tangents(x, q, paired);
 }
 
 /// Choose the slaves and the methods of the joined pairs. The choices are made once, because a
@@ -157,7 +159,9 @@ void Contact<dim>::pair(const Field &positions, const faces::HeldDirections<dim>
   const auto q = placed.turned(held);
   make_groups(x, q);
   number_rows(x, q);
-  measure_pairing(positions);
+  const auto paired = rows(positions);
+  measure_pairing(positions, paired);
+  make_tangents(x, q, paired);
 }
 
 template <int dim>

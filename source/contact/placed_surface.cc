@@ -77,6 +77,14 @@ faces::HeldDirections<dim> PlacedSurface<dim>::turned(faces::HeldDirections<dim>
 }
 
 template <int dim>
+Row<dim> PlacedSurface<dim>::turned(Row<dim> row) const
+{
+  for (auto &[node, coefficient] : row.coefficients)
+    coefficient = turned(node, coefficient);
+  return row;
+}
+
+template <int dim>
 std::vector<Row<dim>> PlacedSurface<dim>::turned_back(std::vector<Row<dim>> rows) const
 {
   if (placed)

@@ -24,22 +24,21 @@ Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &row)
 }
 
 template <int dim>
-void add_energy_derivatives(const Row<dim, faces::Recorded>          &row,
-                            const typename mesh::Surface<dim>::Field &displacement,
-                            const double                              force,
-                            faces::Recording                         &recording)
+void add_slopes(const Row<dim, faces::Recorded> &row,
+                const RowSlopes<dim>            &slopes,
+                faces::Recording                &recording)
 {
-  recording.add(row.gap, -force);
-  for (const auto &[node, c] : row.coefficients)
-    for (int d = 0; d < dim; ++d)
-      recording.add(c[d], force * displacement[node][d]);
+  AssertDimension(slopes.coefficients.size(), row.coefficients.size());
+  recording.add(row.gap, slopes.gap);
+  for (unsigned int k = 0; k < row.coefficients.size(); ++k)
+    recording.add(row.coefficients[k].second, slopes.coefficients[k]);
+  recording.add(row.normal, slopes.normal);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                         \
-  template Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &);          \
-  template void     add_energy_derivatives(const Row<dim, faces::Recorded> &,         \
-                                           const mesh::Surface<dim>::Field &, double, \
-                                           faces::Recording &);
+#define SNUG_INSTANTIATE(dim)                                                             \
+  template Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &);              \
+  template void     add_slopes(const Row<dim, faces::Recorded> &, const RowSlopes<dim> &, \
+                               faces::Recording &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

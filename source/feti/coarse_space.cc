@@ -154,20 +154,26 @@ void CoarseSpace::add_column(const unsigned int   row,
 }
 
 /// Return the sum of the columns of G of the rows of a contact with the given factors, in the
-/// blocks of its normal row. All rows of a contact have entries at the same nodes, hence the same
-/// blocks.
+/// blocks of its first tangential row. Tangential rows have the same blocks, among which are those
+/// of the normal row.
 std::vector<double> CoarseSpace::combined_column(const qp::FrictionCone      &cone,
                                                  const double                 of_normal,
                                                  const std::array<double, 2> &of_tangents) const
 {
-  const unsigned int  m      = pattern.table.n_modes;
-  const auto         &start  = pattern.block_start;
-  const unsigned int  length = (start[cone.normal + 1] - start[cone.normal]) * m;
-  std::vector<double> column(length);
+  const unsigned int  m     = pattern.table.n_modes;
+  const auto         &start = pattern.block_start;
+  const auto          all   = pattern.block_subdomain.begin();
+  const unsigned int  base = start[cone.tangents[0]], end = start[cone.tangents[0] + 1];
+  std::vector<double> column(std::size_t(end - base) * m);
   const auto          add = [&](const double factor, const unsigned int row) {
-    AssertDimension((start[row + 1] - start[row]) * m, length);
-    for (unsigned int i = 0; i < length; ++i)
-      column[i] += factor * blocks[std::size_t(start[row]) * m + i];
+    for (unsigned int b = start[row]; factor != 0. && b < start[row + 1]; ++b)
+      {
+        const auto found = std::lower_bound(all + base, all + end, pattern.block_subdomain[b]);
+        Assert(found != all + end && *found == pattern.block_subdomain[b],
+                        dealii::ExcInternalError());
+        for (unsigned int i = 0; i < m; ++i)
+          column[(found - all - base) * m + i] += factor * blocks[std::size_t(b) * m + i];
+      }
   };
   add(of_normal, cone.normal);
   for (unsigned int t = 0; t < cone.n_tangents; ++t)
@@ -292,11 +298,11 @@ CsrMatrix CoarseSpace::gram(const qp::FreeRows &free) const
       const auto  &cone = slip.cone;
       const double mu   = free.is_transposed() ? 0. : cone.coefficient;
       add_column(
-        cone.normal,
+        cone.tangents[0],
         combined_column(cone, 1., {{mu * slip.direction[0], mu * slip.direction[1]}}).data(),
         contact);
       if (cone.n_tangents == 2)
-        add_column(cone.normal, combined_column(cone, 0., slip.across()).data(), contact);
+        add_column(cone.tangents[0], combined_column(cone, 0., slip.across()).data(), contact);
       unit_columns[cone.normal] = 0;
     }
   for (unsigned int row = 0; row < layout.n_owned(); ++row)

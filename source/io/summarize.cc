@@ -73,6 +73,33 @@ Summary::State array_of(const std::vector<Part> &parts)
     result.push_back(summary_part(part));
   return result;
 }
+
+template <int dim>
+Summary::State of_certificate(const state::ContactState<dim> &state)
+{
+  const auto    &certificate = state.certificate;
+  Summary::State result      = {{"equilibrium", certificate.equilibrium},
+                                {"continuity", certificate.continuity},
+                                {"penetration", certificate.penetration},
+                                {"negative_pressure", certificate.negative_pressure},
+                                {"complementarity", certificate.complementarity}};
+  if (state.has_friction())
+    result.update({{"cone", certificate.cone},
+                   {"creep", certificate.creep},
+                   {"dissipation", certificate.dissipation}});
+  return result;
+}
+
+/// Return the numbers of friction; null without friction.
+template <int dim>
+Summary::State of_friction(const state::ContactState<dim> &state)
+{
+  if (!state.has_friction())
+    return nullptr;
+  return {{"slipping_contacts", state.slipping_contacts},
+          {"dissipation", state.dissipation},
+          {"distance", state.friction_distance}};
+}
 } // namespace
 
 /// Other tools read the keys: keys may be added, but are never renamed.
@@ -81,7 +108,6 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
                          const std::vector<std::pair<std::string, double>> &responses,
                          const std::optional<Summary::Accuracy>            &accuracy)
 {
-  const auto    &certificate = state.certificate;
   Summary::State linear, errors;
   if (state.linear_f_mults > 0) // 0 means that no linear problem was solved for comparison
     linear = state.linear_f_mults;
@@ -108,12 +134,8 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"load", numbers(state.load)},
           {"balance", numbers(state.balance)},
           {"responses", object_of(responses)},
-          {"certificate",
-           {{"equilibrium", certificate.equilibrium},
-            {"continuity", certificate.continuity},
-            {"penetration", certificate.penetration},
-            {"negative_pressure", certificate.negative_pressure},
-            {"complementarity", certificate.complementarity}}},
+          {"friction", of_friction(state)},
+          {"certificate", of_certificate(state)},
           {"tolerance", state.tolerance},
           {"assumptions",
            {{"rotation", state.validity.rotation},

@@ -1,19 +1,21 @@
 #include <snug/response/measured_place.h>
 #include <snug/response/quantities.h>
+#include <snug/state/contact_results.h>
 
 namespace snug::response {
 namespace {
-/// Return d/dX of sum_i forces_i n_i . e over the rows of one pair. The coefficients of a row
-/// on the slave side add up to n_i. The sum is therefore the energy of the rows with u = e on
-/// the slave side, minus the energy of the rows with u = 0.
+/// Return d/dX of sum_i (p_i n_i + q_i) . e over the rows of one pair, for the normal forces p_i
+/// and the tangential forces q_i. The coefficients of a row on the slave side add up to n_i, or to
+/// the tangent. The sum is therefore the energy of the rows with u = e on the slave side, minus the
+/// energy of the rows with u = 0.
 template <int dim>
 typename mesh::Surface<dim>::Field
-normal_gradient(const state::StateSolver<dim>            &solver,
-                const unsigned int                        load_case,
-                const contact::Pair                      &pair,
-                const typename mesh::Surface<dim>::Field &positions,
-                const std::vector<double>                &forces,
-                const dealii::Tensor<1, dim>             &e)
+force_gradient(const state::StateSolver<dim>            &solver,
+               const unsigned int                        load_case,
+               const contact::Pair                      &pair,
+               const typename mesh::Surface<dim>::Field &positions,
+               const contact::ContactForces<dim>        &forces,
+               const dealii::Tensor<1, dim>             &e)
 {
   const auto                        &surface = solver.surface();
   typename mesh::Surface<dim>::Field moved(surface.n_nodes());
@@ -49,12 +51,19 @@ public:
     double force = 0.;
     for (unsigned int i = 0; i < rows.size(); ++i)
       if (shares[i] != 0.)
-        force -=
-          shares[i] * state.contact[i].force *
-          // p_i pushes the slave side along -n_i: -p_i n_i . e along e, p_i along -n_i itself.
-          (parameters.component == Component::normal
-             ? -1.
-             : rows[i].normal * unit_vector<dim>(parameters));
+        {
+          const auto &point = state.contact[i];
+          if (parameters.component == Component::normal)
+            force += shares[i] * point.force;
+          else
+            {
+              // p_i n_i and the shear push the slave side in the opposite direction.
+              const auto e = unit_vector<dim>(parameters);
+              force -= shares[i] * point.force * (rows[i].normal * e);
+              for (int d = 0; d < dim; ++d)
+                force -= shares[i] * point.shear[d] * e[d];
+            }
+        }
     return force;
   }
 
@@ -84,21 +93,28 @@ public:
     result.positions.resize(solver.mesh().n_points());
     if (parameters.component == Component::normal)
       return result;
-    const auto e    = unit_vector<dim>(parameters);
-    const auto x    = solver.surface().gather(state.positions);
-    const auto rows = solver.contact(state.load_case).rows(x);
+    const auto  e          = unit_vector<dim>(parameters);
+    const auto  x          = solver.surface().gather(state.positions);
+    const auto &contact    = solver.contact(state.load_case);
+    const auto  rows       = contact.rows(x);
+    const auto  directions = contact.tangent_directions(rows);
     for (unsigned int i = 0; i < rows.size(); ++i)
       result.forces[i] *= -(rows[i].normal * e);
+    for (unsigned int i = 0; i < directions.size(); ++i)
+      result.forces.push_back(-shares[contact.tangents()[i].row] * (directions[i] * e));
     // Differentiate pair by pair, because a boundary may be the slave of one pair and the master of
     // another. If it moved in both pairs at once, the coefficients of both sides would add up.
-    const auto &pairs = solver.contact(state.load_case).pairs();
+    const auto &pairs = contact.pairs();
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
-        std::vector<double> forces(rows.size(), 0.);
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          if (solver.contact(state.load_case).places()[i].pair == p)
-            forces[i] = -shares[i] * state.contact[i].force;
-        solver.surface().add_owned(normal_gradient(solver, state.load_case, pairs[p], x, forces, e),
+        auto forces = state::contact_row_forces(solver, state);
+        for (unsigned int i = 0; i < forces.size(); ++i)
+          {
+            const auto row = i < rows.size() ? i : contact.tangents()[i - rows.size()].row;
+            forces[i] *= contact.places()[row].pair == p ? -shares[row] : 0.;
+          }
+        solver.surface().add_owned(force_gradient(solver, state.load_case, pairs[p], x,
+                                                  contact.forces(rows, forces), e),
                                    result.positions);
       }
     return result;

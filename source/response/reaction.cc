@@ -48,14 +48,14 @@ public:
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    const auto         &surface    = solver.surface();
-    const auto         &contact    = solver.contact(state.load_case);
-    const auto          v          = nodal_motion(solver, state);
-    const auto          v_torn     = torn(solver, v);
-    const auto          on_surface = surface.gather(v);
-    const auto          x          = surface.gather(state.positions);
-    std::vector<double> forces;
-    Partials<dim>       result;
+    const auto   &surface    = solver.surface();
+    const auto   &contact    = solver.contact(state.load_case);
+    const auto    v          = nodal_motion(solver, state);
+    const auto    v_torn     = torn(solver, v);
+    const auto    on_surface = surface.gather(v);
+    const auto    x          = surface.gather(state.positions);
+    const auto    rows       = solver.rows(state.positions, state.load_case);
+    Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
     for (unsigned int s = 0; s < v_torn.size(); ++s)
       {
@@ -63,17 +63,18 @@ public:
         solver.feti(state).linearization().subdomains()[s].K.multiply_add(1., v_torn[s],
                                                                           result.u[s]);
       }
-    for (const auto &row : contact.rows(x))
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
       {
         result.forces.push_back(0.);
-        for (const auto &[node, c] : row.coefficients)
+        for (const auto &[node, c] : rows.row(i).coefficients)
           result.forces.back() += c * on_surface[node];
       }
-    for (const auto &row : state.contact)
-      forces.push_back(row.force);
     state::add_stiffness_gradient(solver, state, v_torn, 1., result.positions);
     state::add_load_gradient(solver, state, v_torn, -1., result.positions);
-    surface.add_owned(contact.coefficient_gradient(x, on_surface, forces), result.positions);
+    surface.add_owned(contact.coefficient_gradient(
+                        x, on_surface,
+                        contact.forces(rows.contact, state::contact_row_forces(solver, state))),
+                      result.positions);
     if (is_moment)
       add_lever_gradient(solver, state, result.positions);
     return result;
@@ -195,10 +196,11 @@ private:
       }
     const auto                        &surface = solver.surface();
     typename mesh::Surface<dim>::Field of_rows(surface.n_nodes());
-    const auto rows = solver.contact(state.load_case).rows(surface.gather(state.positions));
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      for (const auto &[node, c] : rows[i].coefficients)
-        of_rows[node] += state.contact[i].force * c;
+    const auto                         rows   = solver.rows(state.positions, state.load_case);
+    const auto                         forces = state::contact_row_forces(solver, state);
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+      for (const auto &[node, c] : rows.row(i).coefficients)
+        of_rows[node] += forces[i] * c;
     surface.add_owned(of_rows, r);
     return r;
   }

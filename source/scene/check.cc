@@ -58,6 +58,11 @@ void check_all_loads(const Scene &scene, const Origins &origins)
       for (const auto &obstacle : scene.obstacles)
         names.push_back(obstacle.name);
       load_case.check_positions(section, names);
+      const auto *before = &load_case == &scene.load_cases.front() ? nullptr : &load_case - 1;
+      section.require(!load_case.load_step || before == nullptr ||
+                        before->positions == load_case.positions,
+                      "Load step", "true",
+                      "must be false, because 'Position' is not that of the load case before");
       section.require(load_case.positions.empty() ||
                         scene.model != mesh::Idealization::Kind::axisymmetric,
                       "Position", to_text(load_case.positions, ';'),
@@ -78,7 +83,8 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
   const std::string &objective = scene.optimization.objective;
   const auto         measured  = response_called(scene, objective);
   section.require(scene.gradient.method != sensitivity::Method::energy ||
-                    !sensitivity::needs_solve(*response::make_response<3>(*measured)),
+                    !sensitivity::needs_solve(*response::make_response<3>(*measured),
+                                              has_friction(scene)),
                   "Method", to_text(scene.gradient.method),
                   "must be auto, adjoint, direct or finite differences for the objective '" +
                     objective + "'");

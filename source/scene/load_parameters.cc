@@ -87,6 +87,11 @@ void LoadCaseParameters::declare(Entries &entries)
     "space, instead of turning with the bodies that 'Position' moves. Pressures always "
     "turn with the bodies. Formulas are evaluated at the place that the scene gives to "
     "the body.");
+  entries.add(
+    "Load step", load_step,
+    "Whether this load case is a load step: contacts with friction continue from their slips "
+    "in the load case before it in 'Load cases', which must have the same 'Position'. The loads "
+    "are those at the end of the step. The first load case starts without slips.");
   declare_gravity(entries, gravity);
   loads.declare(entries, "body.boundary", "punch.top");
 }

@@ -134,6 +134,12 @@ materials_of(const Scene &scene, const Body &body, const std::vector<std::string
   return result;
 }
 
+bool has_friction(const Scene &scene)
+{
+  return std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(),
+                     [](const auto &pair) { return pair.parameters.has_friction(); });
+}
+
 bool is_nearly_incompressible(const Scene &scene, const Body &body)
 {
   if (body.formulation != elasticity::Formulation::B_bar)

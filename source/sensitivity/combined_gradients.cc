@@ -27,36 +27,6 @@ void add(const double factor, const Gradient<dim> &gradient, Gradient<dim> &sum)
 } // namespace
 
 template <int dim>
-Gradients<dim> gradients_of_cases(const LoadCases<dim>             &load_cases,
-                                  const std::vector<Measured<dim>> &measured)
-{
-  Gradients<dim> result;
-  result.of_response.resize(measured.size());
-  for (unsigned int c = 0; c < load_cases.size(); ++c)
-    {
-      Responses<dim>            responses;
-      std::vector<unsigned int> places;
-      for (unsigned int i = 0; i < measured.size(); ++i)
-        if (measured[i].load_case == c)
-          {
-            responses.push_back(measured[i].response);
-            places.push_back(i);
-          }
-      auto of_case = gradients(load_cases[c], responses);
-      for (unsigned int i = 0; i < places.size(); ++i)
-        result.of_response[places[i]] = of_case.of_response[i];
-      for (auto &field : of_case.displacement)
-        result.displacement.push_back(std::move(field));
-      for (auto &forces : of_case.forces)
-        result.forces.push_back(std::move(forces));
-      result.f_mults += of_case.f_mults;
-      result.numeric_factorizations += of_case.numeric_factorizations;
-      result.seconds += of_case.seconds;
-    }
-  return result;
-}
-
-template <int dim>
 Gradient<dim> weighted_sum(const std::vector<double>        &factors,
                            const std::vector<Gradient<dim>> &gradients,
                            const std::size_t                 first)
@@ -68,16 +38,16 @@ Gradient<dim> weighted_sum(const std::vector<double>        &factors,
 }
 
 template <int dim>
-Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
-                                  const response::Response<dim>    &objective,
-                                  const std::vector<double>        &factors,
-                                  const std::vector<Measured<dim>> &others)
+Gradients<dim> combined_gradients(const LoadCases<dim>          &load_cases,
+                                  const response::Response<dim> &objective,
+                                  const std::vector<double>     &factors,
+                                  const MeasuredResponses<dim>  &others)
 {
-  std::vector<Measured<dim>> measured;
+  MeasuredResponses<dim> measured;
   for (unsigned int c = 0; c < load_cases.size(); ++c)
     measured.push_back({&objective, c});
   measured.insert(measured.end(), others.begin(), others.end());
-  auto result   = gradients_of_cases(load_cases, measured);
+  auto result   = gradients(load_cases, measured);
   auto combined = weighted_sum(factors, result.of_response, 0);
   result.of_response.erase(result.of_response.begin(),
                            result.of_response.begin() + load_cases.size());
@@ -102,14 +72,12 @@ OneSided combined_one_sided_gradients(const LoadCases<dim>          &load_cases,
 }
 
 #define SNUG_INSTANTIATE(dim)                                                            \
-  template Gradients<dim> gradients_of_cases(const LoadCases<dim> &,                     \
-                                             const std::vector<Measured<dim>> &);        \
   template Gradient<dim>  weighted_sum(const std::vector<double> &,                      \
                                        const std::vector<Gradient<dim>> &, std::size_t); \
   template Gradients<dim> combined_gradients(const LoadCases<dim> &,                     \
                                              const response::Response<dim> &,            \
                                              const std::vector<double> &,                \
-                                             const std::vector<Measured<dim>> &);        \
+                                             const MeasuredResponses<dim> &);            \
   template OneSided       combined_one_sided_gradients(const LoadCases<dim> &,           \
                                                        const response::Response<dim> &,  \
                                                        const std::vector<double> &);

@@ -157,17 +157,25 @@ void SubdomainDerivative<dim>::add_faces(const Field     &velocity,
 
 /// Compute rows <- rows + weight * of. Both arguments have the same entries.
 template <int dim>
-void add(double weight, const state::RowCoefficients<dim> &of, state::RowCoefficients<dim> &rows)
+void add(double                                weight,
+         const std::vector<contact::Row<dim>> &of,
+         std::vector<contact::Row<dim>>       &rows)
 {
-  for (unsigned int i = 0; i < rows.contact.size(); ++i)
+  for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      auto       &row   = rows.contact[i];
-      const auto &other = of.contact[i];
+      auto       &row   = rows[i];
+      const auto &other = of[i];
       for (unsigned int k = 0; k < row.coefficients.size(); ++k)
         row.coefficients[k].second += weight * other.coefficients[k].second;
       row.gap += weight * other.gap;
       row.normal += weight * other.normal;
     }
+}
+
+template <int dim>
+void add(double weight, const state::RowCoefficients<dim> &of, state::RowCoefficients<dim> &rows)
+{
+  add(weight, of.contact, rows.contact);
   for (unsigned int h = 0; h < rows.held.size(); ++h)
     for (unsigned int k = 0; k < rows.held[h].directions.size(); ++k)
       {
@@ -223,6 +231,12 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim>  &solv
         }
       add(stencil.weights[k] / step, rows, result);
     }
+  // Tangential rows are known functions of the normal rows.
+  const auto &contact = solver.contact(state.load_case);
+  const auto &surface = solver.surface();
+  const auto  x       = surface.gather(X);
+  result.tangents =
+    contact.tangent_row_derivatives(x, surface.gather(V), contact.rows(x), result.contact);
   return result;
 }
 

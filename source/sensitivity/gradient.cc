@@ -9,11 +9,11 @@ namespace {
 /// Compute the gradient of each response by its method. Responses with the same
 /// method are differentiated together.
 template <int dim>
-Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
-                          const Responses<dim>            &responses,
+Gradients<dim> by_methods(const LoadCases<dim>            &load_cases,
+                          const MeasuredResponses<dim>    &responses,
                           const std::vector<MethodChoice> &choices)
 {
-  using By = Gradients<dim>(const GradientProblem<dim> &, const Responses<dim> &);
+  using By = Gradients<dim>(const LoadCases<dim> &, const MeasuredResponses<dim> &);
   const std::pair<Method, By *> methods[] = {{Method::energy, energy_gradients},
                                              {Method::adjoint, adjoint_gradients},
                                              {Method::direct, direct_gradients},
@@ -22,13 +22,13 @@ Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
   result.of_response.resize(responses.size());
   for (const auto &[method, gradients_by] : methods)
     {
-      Responses<dim> group;
+      MeasuredResponses<dim> group;
       for (unsigned int i = 0; i < responses.size(); ++i)
         if (choices[i].method == method)
           group.push_back(responses[i]);
       if (group.empty())
         continue;
-      auto of_group = gradients_by(problem, group);
+      auto of_group = gradients_by(load_cases, group);
       auto next     = of_group.of_response.begin();
       for (unsigned int i = 0; i < responses.size(); ++i)
         if (choices[i].method == method)
@@ -47,16 +47,31 @@ Gradients<dim> by_methods(const GradientProblem<dim>      &problem,
 /// Return the method of each response. If the method is adjoint or direct, a response that depends
 /// on the geometry alone takes the energy method, because it needs no solve.
 template <int dim>
-std::vector<MethodChoice> methods(const GradientProblem<dim> &problem,
-                                  const Responses<dim>       &responses)
+std::vector<MethodChoice> methods(const LoadCases<dim>         &load_cases,
+                                  const MeasuredResponses<dim> &measured)
 {
-  const auto &wanted = problem.parameters.method;
-  if (!wanted)
-    return cheapest_methods(responses, problem.basis.n_variables());
-  const bool                solves = wanted == Method::adjoint || wanted == Method::direct;
-  std::vector<MethodChoice> choices;
-  for (const auto *response : responses)
-    choices.push_back({solves && !response->needs_solution() ? Method::energy : *wanted, ""});
+  const auto               &problem = load_cases.front();
+  const auto               &wanted  = problem.parameters.method;
+  const bool                solves  = wanted == Method::adjoint || wanted == Method::direct;
+  std::vector<MethodChoice> choices(measured.size());
+  for (unsigned int c = 0; c < load_cases.size(); ++c)
+    {
+      Responses<dim>            of_case;
+      std::vector<unsigned int> places;
+      for (unsigned int i = 0; i < measured.size(); ++i)
+        if (measured[i].load_case == c)
+          {
+            of_case.push_back(measured[i].response);
+            places.push_back(i);
+          }
+      const auto cheapest =
+        cheapest_methods(of_case, problem.basis.n_variables(), problem.solver.has_friction());
+      for (unsigned int i = 0; i < places.size(); ++i)
+        choices[places[i]] =
+          !wanted
+            ? cheapest[i]
+            : MethodChoice{solves && !of_case[i]->needs_solution() ? Method::energy : *wanted, ""};
+    }
   return choices;
 }
 
@@ -92,11 +107,12 @@ mesh::Field<dim> spanned_field(const GradientProblem<dim> &problem,
 
 template <int dim>
 std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
-                                           const unsigned int    n_variables)
+                                           const unsigned int    n_variables,
+                                           const bool            with_friction)
 {
   unsigned int n_solves = 0;
   for (const auto *response : responses)
-    n_solves += needs_solve(*response);
+    n_solves += needs_solve(*response, with_friction);
   const MethodChoice solving{n_solves < n_variables ? Method::adjoint : Method::direct,
                              counted(n_solves, "response") + ", " +
                                counted(n_variables, "variable")};
@@ -104,7 +120,7 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
   for (const auto *response : responses)
     if (!response->needs_solution())
       choices.push_back({Method::energy, "depends only on the geometry"});
-    else if (response->stationary())
+    else if (!needs_solve(*response, with_friction))
       choices.push_back({Method::energy, "needs no linear solve"});
     else
       choices.push_back(solving);
@@ -112,19 +128,20 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
 }
 
 template <int dim>
-Gradients<dim> gradients(const GradientProblem<dim> &problem, const Responses<dim> &responses)
+Gradients<dim> gradients(const LoadCases<dim> &load_cases, const MeasuredResponses<dim> &responses)
 {
-  // The solver may have solved other designs since.
-  problem.solver.restore(problem.state);
+  const auto             &problem = load_cases.front();
   RunContext             &context = problem.solver.context();
   const RunContext::Timer timer(context, "gradient");
   const double            start  = context.seconds();
   const Work              before = context.total_work();
-  auto                    result = by_methods(problem, responses, methods(problem, responses));
+  auto result = by_methods(load_cases, responses, methods(load_cases, responses));
   for (unsigned int i = 0; i < responses.size(); ++i)
     {
-      auto &gradient          = result.of_response[i];
-      gradient.differentiable = problem.state.weak_contacts == 0 || !needs_solve(*responses[i]);
+      auto       &gradient    = result.of_response[i];
+      const auto &state       = load_cases[responses[i].load_case].state;
+      gradient.differentiable = state.weak_contacts == 0 ||
+                                !needs_solve(*responses[i].response, problem.solver.has_friction());
       if (!problem.parameters.shape_gradient)
         gradient.shape.reset();
       else if (!gradient.shape)
@@ -137,9 +154,9 @@ Gradients<dim> gradients(const GradientProblem<dim> &problem, const Responses<di
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                \
-  template std::vector<MethodChoice> cheapest_methods(const Responses<dim> &, unsigned int); \
-  template Gradients<dim> gradients(const GradientProblem<dim> &, const Responses<dim> &);
+#define SNUG_INSTANTIATE(dim)                                                                      \
+  template std::vector<MethodChoice> cheapest_methods(const Responses<dim> &, unsigned int, bool); \
+  template Gradients<dim> gradients(const LoadCases<dim> &, const MeasuredResponses<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

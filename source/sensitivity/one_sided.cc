@@ -68,6 +68,8 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
     TangentSystem(feti, strong, parameters, Solves::block, state.dual.directions).solve(data);
   if (state.weak_contacts == 0)
     return linear;
+  if (solver.has_friction())
+    throw SolveError("one-sided derivatives at weakly active contacts are not known with friction");
   KktVectors result;
   result.dual = qp::MultiVector(feti.n_owned(), 0);
   for (const auto &part : data.primal)
@@ -75,7 +77,7 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
   for (unsigned int j = 0; j < data.dual.n_columns(); ++j)
     {
       const auto          data_j = column_of(data, j);
-      const SensitivityQp problem(feti, strong, weak, data_j);
+      const SensitivityQp problem(feti, strong.rows(), weak, data_j);
       const auto column = solve_from(problem, feti, parameters, data_j, column_of(linear, j));
       result.dual.append(column.dual);
       for (unsigned int s = 0; s < result.primal.size(); ++s)

@@ -15,23 +15,26 @@ void add_rows(const state::StateSolver<dim>  &solver,
               unsigned int                    j,
               Field<dim>                     &gradient)
 {
-  const auto         &surface = solver.surface();
-  const auto         &scales  = solver.gluing(state.load_case).contact_scales();
-  const auto          X       = surface.gather(state.positions);
-  const auto          eta = solver.gluing(state.load_case).gather_contact(adjoint.dual.column(j));
-  std::vector<double> of_eta, of_lambda;
-  for (unsigned int i = 0; i < scales.size(); ++i)
-    {
-      of_eta.push_back(scales[i] == 0. ? 0. : -eta[i] / scales[i]);
-      of_lambda.push_back(state.contact[i].force);
-    }
+  const auto &surface = solver.surface();
+  const auto &contact = solver.contact(state.load_case);
+  const auto &gluing  = solver.gluing(state.load_case);
+  const auto  X       = surface.gather(state.positions);
+  const auto  rows    = contact.rows(X);
+  const auto  forces  = [&](const double factor, const double *multipliers) {
+    auto values = gluing.gather_contact(multipliers);
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] *= gluing.contact_scales()[i] == 0. ? 0. : factor / gluing.contact_scales()[i];
+    return contact.forces(rows, values);
+  };
+  const auto minus_eta = forces(-1., adjoint.dual.column(j));
+  const auto lambda    = forces(1., state.dual.lambda.column(0));
   // The contact energy force (c.u - gap) without its gap is linear in u.
   auto       sum  = surface.gather(state.displacement);
-  const auto of_u = solver.contact(state.load_case).energy_gradient(X, sum, of_eta);
+  const auto of_u = contact.energy_gradient(X, sum, minus_eta);
   sum             = surface.gather(state::nodal_values(solver, adjoint.primal, j));
-  const auto of_w = solver.contact(state.load_case).energy_gradient(X, sum, of_lambda);
+  const auto of_w = contact.energy_gradient(X, sum, lambda);
   sum.assign(sum.size(), {});
-  auto total = solver.contact(state.load_case).energy_gradient(X, sum, of_lambda);
+  auto total = contact.energy_gradient(X, sum, lambda);
   for (unsigned int a = 0; a < total.size(); ++a)
     total[a] += of_u[a] - of_w[a];
   surface.add_owned(total, gradient);

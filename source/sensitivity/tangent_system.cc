@@ -1,9 +1,11 @@
 #include <snug/base/errors.h>
 #include <snug/qp/pcpg.h>
+#include <snug/qp/projected_gcr.h>
 #include <snug/qp/row_set.h>
 #include <snug/sensitivity/tangent_system.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace snug::sensitivity {
 namespace {
@@ -14,17 +16,43 @@ const double rounding = 1e-12;
 } // namespace
 
 template <int dim>
-qp::RowSet strong_rows(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state)
+qp::FreeRows strong_rows(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state)
 {
-  qp::RowSet  rows       = solver.feti(state).bounded();
-  const auto &of_contact = solver.gluing(state.load_case).contact_of_row();
+  const auto           &feti       = solver.feti(state);
+  const auto           &of_contact = solver.gluing(state.load_case).contact_of_row();
+  qp::RowSet            rows(feti.n_owned(), 1);
+  std::vector<qp::Slip> slips;
   for (unsigned int i = 0; i < rows.size(); ++i)
-    rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
-  return rows;
+    if (feti.bounded()[i])
+      rows[i] = state.contact[of_contact[i]].strong;
+  auto w = feti.linearization().multiply_B(state.u);
+  w.add(-1., feti.g());
+  for (const qp::FrictionCone &cone : feti.cones())
+    {
+      const bool slides =
+        state.contact[of_contact[cone.normal]].friction == state::FrictionStatus::slip;
+      for (unsigned int t = 0; t < cone.n_tangents; ++t)
+        rows[cone.tangents[t]] = rows[cone.normal] && !slides;
+      if (!rows[cone.normal] || !slides)
+        continue;
+      double slip = 0., force = 0.;
+      for (unsigned int t = 0; t < cone.n_tangents; ++t)
+        {
+          slip  = std::hypot(slip, w(cone.tangents[t]));
+          force = std::hypot(force, state.dual.lambda(cone.tangents[t]));
+        }
+      qp::Slip of_cone{cone, {}, slip / cone.limit(state.dual.lambda)};
+      // The friction force is better known than the slip, which may be short.
+      for (unsigned int t = 0; t < cone.n_tangents; ++t)
+        of_cone.direction[t] = state.dual.lambda(cone.tangents[t]) / force;
+      slips.push_back(of_cone);
+    }
+  return {rows, slips};
 }
 
 TangentSystem::TangentSystem(const feti::LoadedProblem  &feti,
-                             const qp::RowSet           &rows,
+                             const qp::FreeRows         &rows,
                              const qp::SolverParameters &parameters,
                              Solves                      solves,
                              const qp::DirectionBasis   &known)
@@ -32,7 +60,9 @@ TangentSystem::TangentSystem(const feti::LoadedProblem  &feti,
   , parameters(parameters)
   , solves(solves)
   , free_set(feti.free_set(rows))
-  , known(known.off(qp::complement(rows), feti.context().communicator()))
+  , is_symmetric(!qp::any(!rows.slips().empty(), feti.context().communicator()))
+  , known(is_symmetric ? known.off(qp::complement(rows.rows()), feti.context().communicator())
+                       : qp::DirectionBasis())
 {}
 
 /// Return whether ||G mu - e|| of every column is within the tolerance of the sum of ||mu|| and the
@@ -55,7 +85,17 @@ bool TangentSystem::minimize(qp::MultiVector           &mu,
                              const std::vector<double> &tolerances,
                              const bool                 deflates) const
 {
-  qp::Pcpg krylov(feti, *free_set, known, deflates);
+  if (is_symmetric)
+    return minimize_by(qp::Pcpg(feti, *free_set, known, deflates), mu, residual, tolerances);
+  return minimize_by(qp::ProjectedGcr(feti, *free_set, deflates), mu, residual, tolerances);
+}
+
+template <typename Krylov>
+bool TangentSystem::minimize_by(Krylov                     krylov,
+                                qp::MultiVector           &mu,
+                                qp::MultiVector           &residual,
+                                const std::vector<double> &tolerances) const
+{
   if (solves == Solves::block)
     return krylov.solve(mu, residual, tolerances, parameters.max_iterations).converged;
   qp::MultiVector all_mu(mu.n_rows(), 0), all_residuals(mu.n_rows(), 0);
@@ -94,7 +134,7 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   result.dual = qp::MultiVector(feti.n_owned(), right_hand_sides.dual.n_columns());
   free_set->make_feasible(result.dual, feti.linearization().rigid_part(b));
   auto            residual  = start_residual(right_hand_sides, result.dual);
-  qp::MultiVector projected = residual;
+  qp::MultiVector projected = free_set->free_rows().reduced_residual(result.dual, residual);
   free_set->project(projected);
   auto       tolerances = qp::norms(projected, feti.context().communicator());
   const auto sizes      = qp::norms(residual, feti.context().communicator());
@@ -109,7 +149,8 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
     throw SolveError("the sensitivities were not solved to the relative "
                      "tolerance; increase 'Solver/Relative "
                      "tolerance' or 'Solver/Maximum F-mults'");
-  auto amplitudes = free_set->amplitudes(residual);
+  auto amplitudes =
+    free_set->amplitudes(free_set->free_rows().reduced_residual(result.dual, residual));
   for (unsigned int j = 0; j < amplitudes.n_columns(); ++j)
     for (unsigned int i = 0; i < amplitudes.n_rows(); ++i)
       amplitudes(i, j) *= -1.;
@@ -117,6 +158,6 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
   return result;
 }
 
-template qp::RowSet strong_rows(const state::StateSolver<2> &, const state::ContactState<2> &);
-template qp::RowSet strong_rows(const state::StateSolver<3> &, const state::ContactState<3> &);
+template qp::FreeRows strong_rows(const state::StateSolver<2> &, const state::ContactState<2> &);
+template qp::FreeRows strong_rows(const state::StateSolver<3> &, const state::ContactState<3> &);
 } // namespace snug::sensitivity

@@ -134,13 +134,49 @@ void set_round_off_to_zero(const feti::LoadedProblem &feti,
     if (std::abs(w(i)) <= round_off * (largest[0] + largest[1]))
       w(i) = 0.;
 }
+
+/// Set the errors of friction. @p length is the length by which forces deform the bodies.
+void certify_friction(const feti::LoadedProblem &feti,
+                      const qp::MultiVector     &lambda,
+                      const qp::MultiVector     &w,
+                      const double               length,
+                      const double               strain_energy,
+                      Certificate               &certificate)
+{
+  double largest[3] = {0., 0., 0.}; // excess of forces, |s| (b - |lambda_T|), b
+  double missing    = 0.;
+  for (const qp::FrictionCone &cone : feti.cones())
+    {
+      double force = 0., slip = 0., work = 0.;
+      for (unsigned int t = 0; t < cone.n_tangents; ++t)
+        {
+          const unsigned int row = cone.tangents[t];
+          force += lambda(row) * lambda(row);
+          slip += w(row) * w(row);
+          work += lambda(row) * w(row);
+        }
+      force              = std::sqrt(force);
+      slip               = std::sqrt(slip);
+      const double limit = cone.limit(lambda);
+      largest[0]         = larger(largest[0], force - limit);
+      largest[1]         = larger(largest[1], slip * std::max(limit - force, 0.));
+      largest[2]         = larger(largest[2], limit);
+      missing += limit * slip - work;
+    }
+  const MPI_Comm comm = feti.context().communicator();
+  MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, comm);
+  MPI_Allreduce(MPI_IN_PLACE, &missing, 1, MPI_DOUBLE, MPI_SUM, comm);
+  certificate.cone        = relative(largest[0], largest[2]);
+  certificate.creep       = relative(largest[1], length * largest[2]);
+  certificate.dissipation = relative(std::abs(missing), strain_energy);
+}
 } // namespace
 
 double Certificate::worst() const
 {
   double worst = 0.;
-  for (const double error :
-       {equilibrium, continuity, penetration, negative_pressure, complementarity})
+  for (const double error : {equilibrium, continuity, penetration, negative_pressure,
+                             complementarity, cone, creep, dissipation})
     // The condition is written so that NaN counts, because NaN must not pass as small.
     if (!(error <= worst))
       worst = std::isnan(error) ? INFINITY : error;
@@ -160,6 +196,8 @@ Certificate certify(const feti::LoadedProblem &feti,
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
     {
       largest[4] = larger(largest[4], feti.diagonal()[i] * std::abs(lambda(i)));
+      if (feti.linearization().contact_rows()[i] && !feti.bounded()[i])
+        continue; // tangential rows
       if (!feti.bounded()[i])
         {
           largest[0] = larger(largest[0], std::abs(w(i)));
@@ -193,6 +231,7 @@ Certificate certify(const feti::LoadedProblem &feti,
   certificate.negative_pressure = relative(largest[2], largest[3]);
   // Compare energies. Without any strain the work of contact has to vanish exactly.
   certificate.complementarity = relative(std::abs(sums[0]), std::abs(sums[1]) / 2);
+  certify_friction(feti, lambda, w, size, std::abs(sums[1]) / 2, certificate);
   return certificate;
 }
 

@@ -31,6 +31,18 @@ typename mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim>    &solv
   return values;
 }
 
+template <int dim>
+std::vector<double> contact_row_forces(const StateSolver<dim>  &solver,
+                                       const ContactState<dim> &state)
+{
+  const auto &gluing = solver.gluing(state.load_case);
+  auto        forces = gluing.gather_contact(state.dual.lambda.column(0));
+  for (unsigned int i = 0; i < forces.size(); ++i)
+    // A row that supports hold entirely has no multiplier.
+    forces[i] = gluing.contact_scales()[i] == 0. ? 0. : forces[i] / gluing.contact_scales()[i];
+  return forces;
+}
+
 namespace {
 /// A contact force above this fraction of the maximum is strong. Below it, and with a gap below the
 /// same fraction of the maximum F_ii lambda_i, the contact is weak.
@@ -67,6 +79,71 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
   state.energy = sums[3] / 2 - sums[2] / 2;
 }
 
+/// Return the contacts of all ranks that slip, ascending. Collective.
+template <int dim>
+std::vector<unsigned int> contacts_that_slip(const StateSolver<dim>  &solver,
+                                             const ContactState<dim> &state)
+{
+  const auto         &gluing = solver.gluing(state.load_case);
+  std::vector<double> flags(solver.feti(state).n_owned(), 0.);
+  for (const qp::Slip &slip : state.dual.slips)
+    flags[slip.cone.normal] = 1.;
+  const auto                all = gluing.gather_contact(flags.data());
+  std::vector<unsigned int> result;
+  for (unsigned int i = 0; i < gluing.n_contact_rows(); ++i)
+    if (all[i] != 0.)
+      result.push_back(i);
+  return result;
+}
+
+/// Set shear, slip and status of the contact points. @p lambda and @p gaps, lambda and g - B u, are
+/// those of all contact rows; @p length is max F_ii lambda_i.
+template <int dim>
+void describe_friction(const StateSolver<dim>     &solver,
+                       const RowCoefficients<dim> &rows,
+                       const std::vector<double>  &lambda,
+                       const std::vector<double>  &gaps,
+                       const double                length,
+                       ContactState<dim>          &state)
+{
+  const auto        &contact    = solver.contact(state.load_case);
+  const auto        &scales     = solver.gluing(state.load_case).contact_scales();
+  const auto         directions = contact.tangent_directions(rows.contact);
+  const unsigned int n          = contact.n_rows();
+  state.slips                   = state.slips_before;
+  state.slips.resize(directions.size(), 0.);
+  for (unsigned int j = 0; j < directions.size(); ++j)
+    {
+      state.slips[j] -= gaps[n + j] * scales[n + j];
+      auto &point = state.contact[contact.tangents()[j].row];
+      if (scales[n + j] == 0.)
+        continue;
+      const auto &law = contact.friction(contact.tangents()[j].row);
+      point.limit = point.force > 0. ? law.coefficient * point.force + law.bound * point.area : 0.;
+      point.friction = point.active ? FrictionStatus::stick : FrictionStatus::open;
+      for (int d = 0; d < dim; ++d)
+        {
+          point.shear[d] += lambda[n + j] / scales[n + j] * directions[j][d];
+          point.slip[d] -= gaps[n + j] * scales[n + j] * directions[j][d];
+        }
+    }
+  for (const auto &slip : contacts_that_slip(solver, state))
+    state.contact[slip].friction = FrictionStatus::slip;
+  for (const ContactPoint &point : state.contact)
+    {
+      if (point.friction == FrictionStatus::none)
+        continue;
+      state.dissipation += point.shear * point.slip;
+      state.slipping_contacts += point.friction == FrictionStatus::slip;
+      if (point.strong)
+        state.friction_distance =
+          std::min(state.friction_distance,
+                   std::max(1. - point.shear.norm() / point.limit, point.slip.norm() / length));
+    }
+  // The dual value of describe_energies() contains the work of all forces of contact.
+  state.energy -= state.dissipation;
+}
+
 template <int dim>
 void describe_contact(const StateSolver<dim>     &solver,
                       const RowCoefficients<dim> &rows,
@@ -85,15 +162,16 @@ void describe_contact(const StateSolver<dim>     &solver,
   const auto                areas =
     solver.contact(state.load_case).areas(solver.surface().gather(state.positions));
   // Maximum lambda_i, maximum F_ii lambda_i, with which gaps are compared, and maximum area.
-  double largest = 0., largest_gap = 0., largest_area = 0.;
-  for (unsigned int i = 0; i < lambda.size(); ++i)
+  double     largest = 0., largest_gap = 0., largest_area = 0.;
+  const auto n_contacts = gluing.n_contact_rows();
+  for (unsigned int i = 0; i < n_contacts; ++i)
     {
       largest_area = std::max(largest_area, areas[i]);
       largest      = std::max(largest, lambda[i]);
       largest_gap  = std::max(largest_gap, F_ii[i] * lambda[i]);
     }
-  state.contact.resize(lambda.size());
-  for (unsigned int i = 0; i < lambda.size(); ++i)
+  state.contact.resize(n_contacts);
+  for (unsigned int i = 0; i < n_contacts; ++i)
     {
       ContactPoint &point = state.contact[i];
       const double  scale = gluing.contact_scales()[i];
@@ -117,6 +195,7 @@ void describe_contact(const StateSolver<dim>     &solver,
           std::min(state.degeneracy_distance,
                    std::max(lambda[i] / largest, std::abs(gaps[i]) / largest_gap));
     }
+  describe_friction(solver, rows, lambda, gaps, largest_gap, state);
 }
 
 template <int dim>
@@ -124,9 +203,11 @@ std::vector<std::string> free_bodies(const StateSolver<dim> &solver, const Conta
 {
   const auto &feti       = solver.feti(state);
   const auto &of_contact = solver.gluing(state.load_case).contact_of_row();
-  qp::RowSet  rows       = feti.bounded();
+  // Contacts that stick hold the bodies along the surface as well.
+  qp::RowSet rows = state.dual.active;
   for (unsigned int i = 0; i < rows.size(); ++i)
-    rows[i] = !rows[i] || state.contact[of_contact[i]].strong;
+    if (feti.bounded()[i])
+      rows[i] = state.contact[of_contact[i]].strong;
   return feti::free_bodies(feti.linearization(), rows);
 }
 
@@ -157,6 +238,8 @@ void sum_up_contact(const contact::Contact<dim> &contact,
           ++pair.rows;
           // The normal points into the master and -force * normal acts on the slave side.
           pair.force -= share * point.force * rows.contact[i].normal;
+          for (int d = 0; d < dim; ++d)
+            pair.force[d] -= share * point.shear[d];
           pair.contact_area += point.strong ? share * point.area : 0.;
           pair.max_pressure = std::max({pair.max_pressure, point.pressure, pressures[i]});
           pair.active_contacts += point.strong;
@@ -195,6 +278,8 @@ void recover_contact_results(const StateSolver<dim>     &solver,
 #define SNUG_INSTANTIATE(dim)                                                                   \
   template mesh::BodyMesh<dim>::Field nodal_values(const StateSolver<dim> &,                    \
                                                    const feti::PrimalVectors &, unsigned int);  \
+  template std::vector<double>        contact_row_forces(const StateSolver<dim> &,              \
+                                                         const ContactState<dim> &);            \
   template void recover_contact_results(const StateSolver<dim> &, const RowCoefficients<dim> &, \
                                         ContactState<dim> &);
 SNUG_INSTANTIATE(2)

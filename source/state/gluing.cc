@@ -1,3 +1,4 @@
+#include <snug/base/narrow.h>
 #include <snug/state/gluing.h>
 
 #include <set>
@@ -38,12 +39,44 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
                     const mesh::Surface<dim>                  &surface,
                     const supports::DirichletConstraints<dim> &held,
                     const RowCoefficients<dim>                &reference,
+                    const std::vector<contact::Tangent>       &tangents,
                     const std::vector<unsigned int>           &clusters)
-  : held(held), rows(mesh, tearing, surface, held, reference, clusters)
+  : held(held)
+  , rows(mesh, tearing, surface, held, reference, tangents, clusters)
+  , n_tangents(narrow<unsigned int>(tangents.size()))
 {
   for (const auto &row : rows.owned)
-    // n_contact_rows() stands for rows of gluing and supports.
-    owned_contact.push_back(row.source == Source::contact ? row.index : n_contact_rows());
+    // The number of all contact rows stands for rows of gluing and supports.
+    owned_contact.push_back(
+      row.source == Source::contact ? row.index : narrow<unsigned int>(rows.scales.size()));
+}
+
+template <int dim>
+std::vector<qp::FrictionCone> Gluing<dim>::cones(const contact::Contact<dim> &contact,
+                                                 const std::vector<double>   &areas) const
+{
+  std::map<unsigned int, unsigned int>     owned_of; // by RowCoefficients::row()
+  std::map<unsigned int, qp::FrictionCone> cone_of;  // by normal row
+  for (unsigned int row = 0; row < rows.owned.size(); ++row)
+    if (rows.owned[row].source == Source::contact)
+      owned_of[rows.owned[row].index] = row;
+  for (unsigned int i = 0; i < contact.tangents().size(); ++i)
+    {
+      const unsigned int normal  = contact.tangents()[i].row;
+      const auto         tangent = owned_of.find(n_contact_rows() + i);
+      if (tangent == owned_of.end())
+        continue;
+      const auto &law                  = contact.friction(normal);
+      auto       &cone                 = cone_of[normal];
+      cone.normal                      = owned_of.at(normal);
+      cone.coefficient                 = law.coefficient;
+      cone.bound                       = law.bound * areas[normal] * rows.scales[normal];
+      cone.tangents[cone.n_tangents++] = tangent->second;
+    }
+  std::vector<qp::FrictionCone> result;
+  for (const auto &[row, cone] : cone_of)
+    result.push_back(cone);
+  return result;
 }
 
 /// Return the rows with the scale zero, which scale_rows() sets for vanished rows.
@@ -51,7 +84,7 @@ template <int dim>
 std::vector<unsigned int> Gluing<dim>::vanished_rows() const
 {
   std::vector<unsigned int> vanished;
-  for (unsigned int i = 0; i < rows.scales.size(); ++i)
+  for (unsigned int i = 0; i < n_contact_rows(); ++i)
     if (rows.scales[i] == 0.)
       vanished.push_back(i);
   return vanished;
@@ -81,7 +114,7 @@ void Gluing<dim>::fill_B(unsigned int                s,
         value *= now.held[entry.index].directions[entry.item][entry.dof % dim];
       else if (entry.source == Source::contact)
         {
-          const auto &c = now.contact[entry.index].coefficients[entry.item];
+          const auto &c = now.row(entry.index).coefficients[entry.item];
           value *= rows.projected(c.first, c.second, now.held)[entry.dof % dim];
         }
       B.push_back({entry.local_row, entry.dof, value});
@@ -102,8 +135,8 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
         value = derivative.held[entry.index].directions[entry.item][entry.dof % dim];
       else if (entry.source == Source::contact)
         {
-          const auto        &c  = now.contact[entry.index].coefficients[entry.item];
-          const auto        &dc = derivative.contact[entry.index].coefficients[entry.item].second;
+          const auto        &c      = now.row(entry.index).coefficients[entry.item];
+          const auto        &dc     = derivative.row(entry.index).coefficients[entry.item].second;
           auto               result = dc;
           const unsigned int h      = rows.held_of_surface[c.first];
           if (h < held.n_nodes())
@@ -122,8 +155,8 @@ template <int dim>
 double
 Gluing<dim>::gap(unsigned int i, const RowCoefficients<dim> &now, unsigned int load_case) const
 {
-  double gap = now.contact[i].gap;
-  for (const auto &c : now.contact[i].coefficients)
+  double gap = now.row(i).gap;
+  for (const auto &c : now.row(i).coefficients)
     {
       const unsigned int h = rows.held_of_surface[c.first];
       if (h == held.n_nodes())
@@ -142,11 +175,11 @@ double Gluing<dim>::gap_derivative(unsigned int                i,
                                    const RowCoefficients<dim> &derivative,
                                    unsigned int                load_case) const
 {
-  double result = derivative.contact[i].gap;
-  for (unsigned int a = 0; a < now.contact[i].coefficients.size(); ++a)
+  double result = derivative.row(i).gap;
+  for (unsigned int a = 0; a < now.row(i).coefficients.size(); ++a)
     {
-      const auto        &c  = now.contact[i].coefficients[a];
-      const auto        &dc = derivative.contact[i].coefficients[a].second;
+      const auto        &c  = now.row(i).coefficients[a];
+      const auto        &dc = derivative.row(i).coefficients[a].second;
       const unsigned int h  = rows.held_of_surface[c.first];
       if (h == held.n_nodes())
         continue;
@@ -194,12 +227,21 @@ qp::MultiVector Gluing<dim>::right_hand_side_derivative(const RowCoefficients<di
 }
 
 template <int dim>
+void Gluing<dim>::add_to_tangents(const std::vector<double> &values, qp::MultiVector &g) const
+{
+  for (unsigned int row = 0; row < rows.owned.size(); ++row)
+    if (const auto &of = rows.owned[row];
+        of.source == Source::contact && of.index >= n_contact_rows())
+      g(row) += of.factor * values[of.index - n_contact_rows()];
+}
+
+template <int dim>
 std::vector<double> Gluing<dim>::gather_contact(const double *owned_values) const
 {
   std::vector<double> values(rows.scales.size(), 0.);
   for (unsigned int row = 0; row < rows.layout->n_owned(); ++row)
-    if (owned_contact[row] < rows.scales.size())
-      values[owned_contact[row]] = owned_values[row];
+    if (rows.owned[row].source == Source::contact)
+      values[rows.owned[row].index] = owned_values[row];
   // Each row has one owner, so every sum has one nonzero term. The result is exact and does not
   // depend on the number of ranks.
   MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
@@ -224,7 +266,7 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const double            
   // because gathered multipliers are the same on all ranks.
   const auto lambda = gather_contact(owned_lambda);
   for (unsigned int i = 0; i < lambda.size(); ++i)
-    for (const auto &c : now.contact[i].coefficients)
+    for (const auto &c : now.row(i).coefficients)
       {
         const unsigned int h = rows.held_of_surface[c.first];
         // A vanished row carries no force.

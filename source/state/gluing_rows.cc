@@ -27,9 +27,8 @@ struct GluingRows<dim>::Message
 };
 
 template <int dim>
-std::vector<unsigned int>
-contact_clusters(const unsigned int                                         n_nodes,
-                 const std::vector<const std::vector<contact::Row<dim>> *> &positions)
+std::vector<unsigned int> contact_clusters(const unsigned int                       n_nodes,
+                                           const std::vector<RowCoefficients<dim>> &positions)
 {
   std::vector<unsigned int> root(n_nodes);
   std::iota(root.begin(), root.end(), 0);
@@ -38,11 +37,11 @@ contact_clusters(const unsigned int                                         n_no
       i = root[i] = root[root[i]];
     return i;
   };
-  for (const auto *rows : positions)
-    for (const auto &row : *rows)
-      for (const auto &c : row.coefficients)
+  for (const auto &rows : positions)
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+      for (const auto &c : rows.row(i).coefficients)
         {
-          const unsigned int a = find(row.coefficients.front().first);
+          const unsigned int a = find(rows.row(i).coefficients.front().first);
           const unsigned int b = find(c.first);
           // The root is the first node of its cluster, for any order of the rows.
           root[std::max(a, b)] = std::min(a, b);
@@ -58,13 +57,14 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
                             const mesh::Surface<dim>                  &surface,
                             const supports::DirichletConstraints<dim> &held,
                             const RowCoefficients<dim>                &reference,
+                            const std::vector<contact::Tangent>       &tangents,
                             const std::vector<unsigned int>           &clusters)
   : mesh(mesh), surface(surface), held(held)
 {
   // The order matters, because scales need the copies of the surface nodes, and the numbers of
   // contact rows come after those of gluing and supports on the same rank.
   collect_surface(tearing);
-  scale_rows(reference);
+  scale_rows(reference, tangents);
   // The rank of the first node of a cluster owns all rows at the nodes of the cluster, so that
   // B D^-1 B' is block diagonal over ranks.
   std::vector<unsigned int> ranks;
@@ -73,7 +73,7 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
   const auto           nodes = collect_copies(tearing, ranks);
   std::vector<Message> messages;
   number_node_rows(nodes, reference, messages);
-  number_contact_rows(nodes, reference.contact, ranks, messages);
+  number_contact_rows(nodes, reference, ranks, messages);
   send_entries(messages, tearing);
 }
 
@@ -93,19 +93,24 @@ GluingRows<dim>::projected(unsigned int                                       su
 
 /// Compute the scales. A coefficient c spread evenly over m copies has the square |c|^2 / m, so
 /// scaled rows have unit length. Use the reference geometry only, so that nr does not depend on the
-/// design. A row whose nodes are held in its direction has the scale 0.
+/// design. A row whose nodes are held in its direction has the scale 0. Tangential rows have the
+/// scale of their normal row, so that the friction cone is circular in the multipliers.
 template <int dim>
-void GluingRows<dim>::scale_rows(const RowCoefficients<dim> &reference)
+void GluingRows<dim>::scale_rows(const RowCoefficients<dim>          &reference,
+                                 const std::vector<contact::Tangent> &tangents)
 {
   // A row whose projection is round-off of a unit normal has vanished.
   const double vanishing = 1e-12;
-  for (const auto &row : reference.contact)
+  for (unsigned int i = 0; i < reference.n_rows(); ++i)
     {
       double square = 0.;
-      for (const auto &c : row.coefficients)
+      for (const auto &c : reference.row(i).coefficients)
         square += projected(c.first, c.second, reference.held).norm_square() / copies[c.first];
       scales.push_back(square < vanishing ? 0. : std::sqrt(square));
     }
+  for (std::size_t i = 0; i < tangents.size(); ++i)
+    if (double &scale = scales[reference.contact.size() + i]; scale > 0.)
+      scale = scales[tangents[i].row];
 }
 
 template <int dim>
@@ -213,15 +218,15 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
 }
 
 template <int dim>
-void GluingRows<dim>::number_contact_rows(const Copies                         &nodes,
-                                          const std::vector<contact::Row<dim>> &reference_rows,
-                                          const std::vector<unsigned int>      &rank_of_contact,
-                                          std::vector<Message>                 &messages)
+void GluingRows<dim>::number_contact_rows(const Copies                    &nodes,
+                                          const RowCoefficients<dim>      &reference,
+                                          const std::vector<unsigned int> &rank_of_contact,
+                                          std::vector<Message>            &messages)
 {
   const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
-  for (unsigned int i = 0; i < reference_rows.size(); ++i)
+  for (unsigned int i = 0; i < reference.n_rows(); ++i)
     {
-      const auto &coefficients = reference_rows[i].coefficients;
+      const auto &coefficients = reference.row(i).coefficients;
       // A vanished row would be a zero row of B, so StateProblem checks its gap instead. All nodes
       // of a row are in one cluster, so the first node determines the owner.
       if (scales[i] == 0. || rank_of_contact[coefficients.front().first] != my_rank)
@@ -300,10 +305,10 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
       entry.local_row = layout->local_row(entry.local_row);
 }
 
-template std::vector<unsigned int>
-contact_clusters(unsigned int, const std::vector<const std::vector<contact::Row<2>> *> &);
-template std::vector<unsigned int>
-contact_clusters(unsigned int, const std::vector<const std::vector<contact::Row<3>> *> &);
+template std::vector<unsigned int> contact_clusters(unsigned int,
+                                                    const std::vector<RowCoefficients<2>> &);
+template std::vector<unsigned int> contact_clusters(unsigned int,
+                                                    const std::vector<RowCoefficients<3>> &);
 template class GluingRows<2>;
 template class GluingRows<3>;
 } // namespace snug::state

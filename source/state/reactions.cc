@@ -137,12 +137,15 @@ void add_places(const StateSolver<dim>     &solver,
       double                  sum = 0., largest = 0.;
       for (const auto &[i, share] : named.rows)
         {
-          const auto &[pair, slave, of] = contact.places()[i];
-          const auto &point             = state.contact[i];
-          const auto &row               = rows.contact[i];
-          const auto  at                = place<dim>(row, slave, on_slave_side[pair], placed, x);
-          const auto  force             = share * point.force;
-          forces.emplace_back(at, resultant(solver, -force * row.normal));
+          const auto &[pair, slave, of]   = contact.places()[i];
+          const auto            &point    = state.contact[i];
+          const auto            &row      = rows.contact[i];
+          const auto             at       = place<dim>(row, slave, on_slave_side[pair], placed, x);
+          const auto             force    = share * point.force;
+          dealii::Tensor<1, dim> on_slave = -force * row.normal;
+          for (int d = 0; d < dim; ++d)
+            on_slave[d] -= share * point.shear[d];
+          forces.emplace_back(at, resultant(solver, on_slave));
           of_pair.centre += force * at;
           sum += force;
           if (point.pressure > largest)

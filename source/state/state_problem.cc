@@ -138,13 +138,10 @@ void StateProblem<dim>::glue(const Field &x)
 {
   forget();
   shared = feti::SharedOperators(systems.size());
-  std::vector<RowCoefficients<dim>>                   rows;
-  std::vector<const std::vector<contact::Row<dim>> *> contact_rows;
+  std::vector<RowCoefficients<dim>> rows;
   for (const auto &at : problems)
-    rows.push_back({at->contact->rows(surface.gather(x)), held->frames(x)});
-  for (const auto &of_position : rows)
-    contact_rows.push_back(&of_position.contact);
-  const auto clusters = contact_clusters<dim>(surface.n_nodes(), contact_rows);
+    rows.push_back(rows_of(*at, x));
+  const auto clusters = contact_clusters<dim>(surface.n_nodes(), rows);
   const auto table    = subdomain_table(mesh, tearing, model.body_names);
   for (auto &system : systems)
     system.boundary.clear();
@@ -152,7 +149,8 @@ void StateProblem<dim>::glue(const Field &x)
     {
       auto &at = *problems[i];
       at.structure.reset(); // refers to the old gluing
-      at.gluing = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i], clusters);
+      at.gluing           = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i],
+                                                          at.contact->tangents(), clusters);
       at.structure        = std::make_unique<const feti::DualStructure>(at.gluing->layout(), table,
                                                                         model.feti, factor_cache);
       const auto &contact = *at.contact;
@@ -178,6 +176,7 @@ void StateProblem<dim>::forget()
 {
   loaded_problems.clear();
   loaded_problems.resize(model.load_cases.size());
+  slips_before.assign(model.load_cases.size(), {});
   for (auto &at : problems)
     at->linearization.reset();
   shared.deflation.reset();
@@ -300,7 +299,9 @@ void StateProblem<dim>::linearize(PositionProblem<dim> &at)
 {
   if (at.linearization)
     return;
-  at.rows = {at.contact->rows(surface.gather(present.positions)), held->frames(present.positions)};
+  at.rows = rows_of(at, present.positions);
+  if (at.contact->has_friction())
+    at.cones = at.gluing->cones(*at.contact, at.contact->areas(surface.gather(present.positions)));
   feti::ConstraintRows B(systems.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     at.gluing->fill_B(s, at.rows, B[s]);
@@ -310,7 +311,9 @@ void StateProblem<dim>::linearize(PositionProblem<dim> &at)
 }
 
 template <int dim>
-void StateProblem<dim>::set(const Field &x, const unsigned int load_case)
+void StateProblem<dim>::set(const Field               &x,
+                            const unsigned int         load_case,
+                            const std::vector<double> &slips)
 {
   // The soft modes and their directions refer to the rows of the first position, so its
   // linearization is the first one of every geometry.
@@ -326,13 +329,17 @@ void StateProblem<dim>::set(const Field &x, const unsigned int load_case)
   linearize(first);
   PositionProblem<dim> &at = *problems[problem_of_case[load_case]];
   linearize(at);
-  if (loaded_problems[load_case])
+  // The slips before a step are those of a state, which may have been solved more accurately since.
+  if (loaded_problems[load_case] && slips_before[load_case] == slips)
     return;
   check_vanished_rows(load_case);
+  auto g = at.gluing->right_hand_side(at.rows, load_case);
+  if (!slips.empty())
+    at.gluing->add_to_tangents(slips, g);
+  slips_before[load_case] = slips;
   loaded_problems[load_case] =
-    std::make_unique<const feti::LoadedProblem>(*at.linearization, loads[load_case],
-                                                at.gluing->right_hand_side(at.rows, load_case),
-                                                &at.pairs_of_rows);
+    std::make_unique<const feti::LoadedProblem>(*at.linearization, loads[load_case], std::move(g),
+                                                &at.pairs_of_rows, at.cones);
 }
 
 template <int dim>
@@ -349,7 +356,17 @@ const feti::LoadedProblem &StateProblem<dim>::loaded(const Field       &position
 template <int dim>
 RowCoefficients<dim> StateProblem<dim>::rows(const Field &x, const unsigned int load_case) const
 {
-  return {of(load_case).contact->rows(surface.gather(x)), held->frames(x)};
+  return rows_of(of(load_case), x);
+}
+
+template <int dim>
+RowCoefficients<dim> StateProblem<dim>::rows_of(const PositionProblem<dim> &at,
+                                                const Field                &x) const
+{
+  const auto           on_surface = surface.gather(x);
+  RowCoefficients<dim> rows{at.contact->rows(on_surface), {}, held->frames(x)};
+  rows.tangents = at.contact->tangent_rows(on_surface, rows.contact);
+  return rows;
 }
 
 template <int dim>

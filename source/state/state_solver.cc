@@ -45,7 +45,7 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
           state.f_mults               = context().work.f_mults - mults;
           return;
         }
-      from = {state.dual.lambda, state.dual.active, state.dual.directions};
+      from = {state.dual.lambda, state.dual.active, state.dual.directions, state.dual.slips};
       if (is_nearly_unloaded(dual, from.lambda))
         from.lambda = qp::MultiVector(dual.n_owned());
       parameters.relative_tolerance *=
@@ -76,11 +76,15 @@ void StateSolver<dim>::pair(const Field &positions)
 }
 
 template <int dim>
-ContactState<dim>
-StateSolver<dim>::solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case)
+ContactState<dim> StateSolver<dim>::solve(const Field                          &positions,
+                                          const qp::WarmStart                  &start,
+                                          const unsigned int                    load_case,
+                                          const std::vector<ContactState<dim>> &earlier)
 {
-  problem->set(positions, load_case);
-  return solve_present(positions, start, load_case, relative_tolerance);
+  const auto               &after = model().load_cases[load_case].after;
+  const std::vector<double> none, &slips = after ? earlier.at(*after).slips : none;
+  problem->set(positions, load_case, slips);
+  return solve_present(positions, start, load_case, relative_tolerance, slips);
 }
 
 template <int dim>
@@ -88,6 +92,16 @@ qp::WarmStart StateSolver<dim>::scaled_start(const std::vector<ContactState<dim>
                                              const Field                          &positions,
                                              const unsigned int                    load_case) const
 {
+  if (const auto &after = model().load_cases[load_case].after)
+    {
+      const auto   &dual = states.at(*after).dual;
+      qp::WarmStart start{dual.lambda, dual.active};
+      // A slip that turns round would first slip the wrong way.
+      for (const qp::FrictionCone &cone : problem->of(load_case).cones)
+        for (unsigned int t = 0; t < cone.n_tangents; ++t)
+          start.active[cone.tangents[t]] = start.active[cone.normal];
+      return start;
+    }
   for (auto other = states.rbegin(); other != states.rend(); ++other)
     {
       if (&problem->of(other->load_case) != &problem->of(load_case))
@@ -119,17 +133,19 @@ ContactState<dim> StateSolver<dim>::solve_on(const ContactState<dim> &state,
 {
   feti(state); // throws at another geometry
   auto result =
-    solve_present(state.positions, {state.dual.lambda, state.dual.active, state.dual.directions},
-                  state.load_case, tolerance);
+    solve_present(state.positions,
+                  {state.dual.lambda, state.dual.active, state.dual.directions, state.dual.slips},
+                  state.load_case, tolerance, state.slips_before);
   result.f_mults += state.f_mults;
   return result;
 }
 
 template <int dim>
-ContactState<dim> StateSolver<dim>::solve_present(const Field         &positions,
-                                                  const qp::WarmStart &start,
-                                                  const unsigned int   load_case,
-                                                  const double         tolerance) const
+ContactState<dim> StateSolver<dim>::solve_present(const Field               &positions,
+                                                  const qp::WarmStart       &start,
+                                                  const unsigned int         load_case,
+                                                  const double               tolerance,
+                                                  const std::vector<double> &slips) const
 {
   const auto       &geometry = problem->geometry();
   ContactState<dim> state;
@@ -137,6 +153,7 @@ ContactState<dim> StateSolver<dim>::solve_present(const Field         &positions
   state.load_case             = load_case;
   state.pairing               = n_pairings;
   state.tolerance             = tolerance;
+  state.slips_before          = slips;
   state.least_scaled_jacobian = geometry.least_scaled_jacobian;
   const RunContext::Timer timer(context(), "solve");
   solve_to_certificate(start, state);
@@ -157,7 +174,7 @@ void StateSolver<dim>::restore(const ContactState<dim> &state)
 {
   Assert(state.pairing == n_pairings,
          dealii::ExcMessage("the state belongs to another contact search"));
-  problem->set(state.positions, state.load_case);
+  problem->set(state.positions, state.load_case, state.slips_before);
 }
 
 template <int dim>
@@ -191,13 +208,27 @@ std::vector<unsigned int> StateSolver<dim>::positions() const
 }
 
 template <int dim>
+bool StateSolver<dim>::has_friction() const
+{
+  const auto first = positions();
+  return std::any_of(first.begin(), first.end(),
+                     [&](const unsigned int c) { return contact(c).has_friction(); });
+}
+
+template <int dim>
 RowCoefficients<dim> StateSolver<dim>::row_derivatives(const Field       &positions,
                                                        const Field       &velocity,
                                                        const unsigned int load_case) const
 {
-  return {contact(load_case).row_derivatives(surface().gather(positions),
-                                             surface().gather(velocity)),
-          held().frame_derivatives(positions, velocity)};
+  const auto           x = surface().gather(positions), v = surface().gather(velocity);
+  const auto          &contact_here = contact(load_case);
+  RowCoefficients<dim> result{contact_here.row_derivatives(x, v),
+                              {},
+                              held().frame_derivatives(positions, velocity)};
+  if (contact_here.has_friction())
+    result.tangents =
+      contact_here.tangent_row_derivatives(x, v, contact_here.rows(x), result.contact);
+  return result;
 }
 
 template <int dim>

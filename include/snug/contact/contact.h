@@ -6,6 +6,7 @@
 #include <snug/contact/placed_surface.h>
 #include <snug/contact/point_gaps.h>
 #include <snug/contact/row_group.h>
+#include <snug/contact/tangent_row.h>
 #include <snug/geometry/formula.h>
 
 #include <limits>
@@ -30,6 +31,34 @@ struct NamedPair
 
   /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }
+};
+
+/// Law of the friction of a contact row, with its formulas evaluated at the slave node.
+struct RowFriction
+{
+  Friction kind        = Friction::none;
+  double   coefficient = 0.; ///< of Coulomb: tangential over normal force
+  double   bound       = 0.; ///< of Tresca: tangential traction [force/length^2]
+
+  /// Return whether there may be tangential forces.
+  bool resists() const { return coefficient > 0. || bound > 0.; }
+};
+
+/// Place of a tangential row.
+struct Tangent
+{
+  unsigned int row;   ///< index of the contact row
+  unsigned int index; ///< of the direction in the row's frame, see tangent_direction()
+};
+
+/// Forces of all contact rows.
+template <int dim>
+struct ContactForces
+{
+  std::vector<double> normal;
+  /// vectors in space at right angles to the normals of the rows, zero for rows without friction;
+  /// empty: none
+  std::vector<dealii::Tensor<1, dim>> tangential = {};
 };
 
 /// Gaps of a pair at its pairing, without the motion of an obstacle.
@@ -58,8 +87,9 @@ public:
 
   /// Pair at @p positions, where the supports hold the directions @p held. @p surface must outlive
   /// this object. @p position is where the bodies and obstacles are.
-  /// @throws InputError naming a pair that is left without rows. In a position other than that of
-  ///   the scene, a pair may have no rows if another pair has some.
+  /// @throws InputError naming a pair that is left without rows, or whose friction is negative or
+  ///   not finite at a slave node. In a position other than that of the scene, a pair may have no
+  ///   rows if another pair has some.
   Contact(const mesh::Surface<dim>         &surface,
           const std::vector<Pair>          &pairs,
           unsigned int                      degree,
@@ -92,18 +122,53 @@ public:
 
   std::vector<Row<dim>> rows(const Field &positions) const;
   std::vector<Row<dim>> row_derivatives(const Field &positions, const Field &velocity) const;
-  /// Return the contact part of the energy gradient for the forces of all rows.
-  Field energy_gradient(const Field               &positions,
-                        const Field               &displacement,
-                        const std::vector<double> &forces) const;
-  /// Return d/dX sum_i force_i sum_b c_ib . u_b at fixed @p displacement, the energy gradient
-  /// without the gaps.
-  Field               coefficient_gradient(const Field               &positions,
-                                           const Field               &displacement,
-                                           const std::vector<double> &forces) const;
+  /**
+   * Return the contact part of the energy gradient for the forces of all rows,
+   *   d/dX (sum_i p_i (sum_b c_ib . u_b - gap_i) + sum_i (sum_b C_ib(q_i) . u_b - gap_i(q_i))),
+   * with the normal forces p_i and the tangential row C_i, gap_i along the tangential force q_i.
+   * The tangential forces follow the normals without a spin, q' = -(n' . q) n.
+   */
+  Field energy_gradient(const Field              &positions,
+                        const Field              &displacement,
+                        const ContactForces<dim> &forces) const;
+  /// Return the energy gradient at fixed @p displacement without the gaps.
+  Field               coefficient_gradient(const Field              &positions,
+                                           const Field              &displacement,
+                                           const ContactForces<dim> &forces) const;
   std::vector<double> areas(const Field &positions) const;
   /// Return d/dX sum_i factors_i areas_i for the factors of all rows.
   Field area_gradient(const Field &positions, const std::vector<double> &factors) const;
+
+  /// @name Friction
+  /// @{
+  /// Return the law of the friction of contact row @p i. Its numbers are those of the slave node's
+  /// reference position at the contact search. They belong to the material, so that they do not
+  /// depend on the positions.
+  const RowFriction &friction(unsigned int i) const { return frictions[i]; }
+  /// Return the places of all tangential rows, ascending by contact row. A row with friction has
+  /// tangential rows, up to dim - 1, in the directions in which the supports let the slave node or
+  /// the face opposite to it move. Against an obstacle, a tangential row must also be independent
+  /// of the normal row where the supports let the slave node move.
+  const std::vector<Tangent> &tangents() const { return tangent_places; }
+  /// Return whether there are tangential rows.
+  bool has_friction() const { return !tangent_places.empty(); }
+  /// Return the directions in space of the tangential rows, from the rows() at any positions.
+  std::vector<dealii::Tensor<1, dim>> tangent_directions(const std::vector<Row<dim>> &rows) const;
+  /// Return the forces of all contact rows and then all tangential rows as vectors, from the rows()
+  /// at the same positions.
+  ContactForces<dim> forces(const std::vector<Row<dim>> &rows,
+                            const std::vector<double>   &of_rows) const;
+  /// Return the tangential rows, see tangent_row(), from the rows() at the same positions.
+  std::vector<Row<dim>> tangent_rows(const Field                 &positions,
+                                     const std::vector<Row<dim>> &rows) const;
+  /// Return the exact derivatives of the tangential rows along @p velocity from the rows() and
+  /// row_derivatives() at the same positions. The tangents follow the normals without a spin, t' =
+  /// -(n' . t) n, which is another derivative than that of the frame of tangent_rows().
+  std::vector<Row<dim>> tangent_row_derivatives(const Field                 &positions,
+                                                const Field                 &velocity,
+                                                const std::vector<Row<dim>> &rows,
+                                                const std::vector<Row<dim>> &derivatives) const;
+  /// @}
 
   /// Return the surface in space, with the transformations to space.
   const PlacedSurface<dim> &placed_surface() const { return placed; }
@@ -156,6 +221,11 @@ private:
   std::vector<Row<dim>>            paired_rows;    ///< of mortar pairs, at the pairing; else empty
   Field                            paired_offsets; ///< one per row, at the pairing
   std::vector<PairedGaps>          gaps;           ///< one per pair, at the pairing
+  /// nodes of each row, in the order of the coefficients
+  std::vector<std::vector<unsigned int>> row_nodes;
+  std::vector<RowFriction>               frictions; ///< one per row
+  std::vector<TangentFrame<dim>>         frames;    ///< one per row; used if it has friction
+  std::vector<Tangent>                   tangent_places;
 
   PairGeometry<dim>      geometry(unsigned int                      p,
                                   const Field                      &positions,
@@ -168,10 +238,20 @@ private:
   void number_rows(const Field &positions, const faces::HeldDirections<dim> &held);
   std::vector<std::vector<bool>> contested_nodes(const Field &positions) const;
   void                           check_named_pairs() const;
-  void  share_rows(const Field &positions, const faces::HeldDirections<dim> &held);
-  void  collect_dependent_multipliers();
-  void  measure_pairing(const Field &positions);
-  Group make_group(const PairGeometry<dim> &geometry) const;
+  void share_rows(const Field &positions, const faces::HeldDirections<dim> &held);
+  void collect_dependent_multipliers();
+  void measure_pairing(const Field &positions, const std::vector<Row<dim>> &paired);
+  void make_tangents(const Field                      &positions,
+                     const faces::HeldDirections<dim> &held,
+                     const std::vector<Row<dim>>      &paired);
+  void add_tangential_slopes(const Field                               &positions,
+                             const Field                               &moved,
+                             const std::vector<dealii::Tensor<1, dim>> &forces,
+                             std::vector<RowSlopes<dim>>               &slopes,
+                             Field                                     &gradient) const;
+  std::vector<RowSlopes<dim>> energy_slopes(const Field               &moved,
+                                            const std::vector<double> &forces) const;
+  Group                       make_group(const PairGeometry<dim> &geometry) const;
 };
 } // namespace snug::contact
 

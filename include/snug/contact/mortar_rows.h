@@ -43,10 +43,9 @@ public:
   std::vector<Row<dim>>            rows(const Field &positions) const override;
   std::vector<Row<dim>>            row_derivatives(const Field &positions,
                                                    const Field &velocity) const override;
-  void                             add_energy_gradient(const Field               &positions,
-                                                       const Field               &displacement,
-                                                       const std::vector<double> &forces,
-                                                       Field                     &gradient) const override;
+  void                             add_gradient(const Field                       &positions,
+                                                const std::vector<RowSlopes<dim>> &slopes,
+                                                Field                             &gradient) const override;
   std::vector<double>              areas(const Field &positions) const override;
   void                             add_area_gradient(const Field               &positions,
                                                      const std::vector<double> &factors,
@@ -135,14 +134,13 @@ private:
                        const RowSum<Number> &sum,
                        const Points<Number> &x,
                        const Points<Number> &n) const;
-  /// Return the derivatives of the energy of the rows with respect to their sums. Add the
-  /// derivatives with respect to positions and normals at fixed sums.
-  std::vector<RowSum<double>> add_sum_derivatives(const Field               &positions,
-                                                  const Field               &normals,
-                                                  const Field               &displacement,
-                                                  const std::vector<double> &forces,
-                                                  Field                     &gradient,
-                                                  Field                     &normal_gradient) const;
+  /// Return the derivatives of the scalar of add_gradient() with respect to the sums of the rows.
+  /// Add the derivatives with respect to positions and normals at fixed sums.
+  std::vector<RowSum<double>> add_sum_derivatives(const Field                       &positions,
+                                                  const Field                       &normals,
+                                                  const std::vector<RowSlopes<dim>> &of_rows,
+                                                  Field                             &gradient,
+                                                  Field &normal_gradient) const;
   void                        add_face_gradient(const SlaveFace                   &face,
                                                 const std::vector<RowSum<double>> &slopes,
                                                 const Field                       &positions,

@@ -70,23 +70,22 @@ public:
     return result;
   }
 
-  void add_energy_gradient(const Field               &positions,
-                           const Field               &displacement,
-                           const std::vector<double> &forces,
-                           Field                     &gradient) const override
+  void add_gradient(const Field                       &positions,
+                    const std::vector<RowSlopes<dim>> &slopes,
+                    Field                             &gradient) const override
   {
-    AssertDimension(forces.size(), nodes.with_rows.size());
+    AssertDimension(slopes.size(), nodes.with_rows.size());
     const auto       normals = master_normals(positions);
     Field            normal_gradient(surface.n_nodes());
     faces::Recording recording;
-    for (unsigned int i = 0; i < forces.size(); ++i)
+    for (unsigned int i = 0; i < slopes.size(); ++i)
       {
-        if (forces[i] == 0.)
+        if (slopes[i].coefficients.empty())
           continue;
         recording.clear();
         const faces::PointField<dim, faces::Recorded> x(positions, recording),
           n(normals.normals(), recording);
-        add_energy_derivatives(formula.row(i, x, n), displacement, forces[i], recording);
+        add_slopes(formula.row(i, x, n), slopes[i], recording);
         recording.sweep();
         x.add_derivatives(gradient);
         n.add_derivatives(normal_gradient);

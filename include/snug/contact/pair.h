@@ -45,6 +45,20 @@ inline Names names(Slave)
     {"first", "side that is named first"}};
 }
 
+/// Law of the tangential forces of a contact.
+enum class Friction
+{
+  none,
+  Tresca,
+  Coulomb
+};
+inline Names names(Friction)
+{
+  return {{"none", "no tangential forces"},
+          {"Tresca", "tangential forces up to Friction bound times the area in contact"},
+          {"Coulomb", "tangential forces up to Friction coefficient times the normal force"}};
+}
+
 /// Parameters of the contact of two sides: entries of `subsection Contact`, for all pairs, and of
 /// `subsection Pair SLAVE: MASTER`.
 struct PairParameters
@@ -54,9 +68,15 @@ struct PairParameters
   /// maximum distance of slave nodes with a row from the master [length]; 0: no limit
   double search_distance = 0.;
   /// maximum angle between the slave's normal and the row's normal [degrees]
-  double      largest_angle = 90.;
-  std::string gap           = "0";   ///< formula in x, y, z that is added to gaps [length]
-  bool        interference  = false; ///< true: initial overlap is intended
+  double      largest_angle        = 90.;
+  std::string gap                  = "0";   ///< formula in x, y, z that is added to gaps [length]
+  bool        interference         = false; ///< true: initial overlap is intended
+  Friction    friction             = Friction::none;
+  std::string friction_coefficient = "0"; ///< formula in x, y, z; Coulomb only
+  std::string friction_bound       = "0"; ///< formula in x, y, z; Tresca only [force/length^2]
+
+  /// Return whether there may be tangential forces.
+  bool has_friction() const { return friction_coefficient != "0" || friction_bound != "0"; }
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;

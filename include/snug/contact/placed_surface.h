@@ -46,6 +46,8 @@ public:
 
   const mesh::Surface<dim> &surface() const { return placed ? *placed : original; }
   bool                      is_moved() const { return placed != nullptr; }
+  /// Return the surface with the bodies where the scene places them.
+  const mesh::Surface<dim> &unmoved() const { return original; }
 
   /// Return positions of points or nodes in space.
   Field to_space(Field positions) const;
@@ -60,6 +62,8 @@ public:
   {
     return placed ? motions[body[node]].vector(vector) : vector;
   }
+  /// Return a row with the coefficients of the frames of the bodies with those in space.
+  Row<dim> turned(Row<dim> row) const;
   /// Return rows with the coefficients of the frames of the bodies. Normals remain in space.
   std::vector<Row<dim>> turned_back(std::vector<Row<dim>> rows) const;
 

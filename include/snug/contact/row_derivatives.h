@@ -9,13 +9,12 @@ namespace snug::contact {
 template <int dim>
 Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &row);
 
-/// Add the derivatives of force (sum_a c_a . u_a - gap) with respect to the numbers of the row to
-/// the scalar of @p recording.
+/// Add @p slopes, the derivatives of the scalar of @p recording with respect to the numbers of
+/// @p row, to the recording. The slopes must not be empty.
 template <int dim>
-void add_energy_derivatives(const Row<dim, faces::Recorded>          &row,
-                            const typename mesh::Surface<dim>::Field &displacement,
-                            double                                    force,
-                            faces::Recording                         &recording);
+void add_slopes(const Row<dim, faces::Recorded> &row,
+                const RowSlopes<dim>            &slopes,
+                faces::Recording                &recording);
 } // namespace snug::contact
 
 #endif

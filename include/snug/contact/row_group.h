@@ -24,6 +24,16 @@ struct Row
   std::optional<double> off_face = {};
 };
 
+/// Derivatives of a scalar with respect to the numbers of a Row.
+template <int dim>
+struct RowSlopes
+{
+  /// in the order of Row::coefficients; empty: the scalar does not depend on the row
+  std::vector<dealii::Tensor<1, dim>> coefficients;
+  double                              gap = 0.;
+  dealii::Tensor<1, dim>              normal;
+};
+
 /// A slave node without a row of its own, with the rows that act for it and their shares. The
 /// shares sum to 1, or to less where rows are out of reach.
 struct DependentMultiplier
@@ -64,15 +74,11 @@ public:
   virtual std::vector<Row<dim>> row_derivatives(const Field &positions,
                                                 const Field &velocity) const = 0;
 
-  /**
-   * Add the contact part of the energy gradient for all surface nodes:
-   *   gradient_a += d/dX_a sum_i force_i (sum_b c_ib . u_b - gap_i).
-   * Hanging nodes count as independent positions.
-   */
-  virtual void add_energy_gradient(const Field               &positions,
-                                   const Field               &displacement,
-                                   const std::vector<double> &forces,
-                                   Field                     &gradient) const = 0;
+  /// Add d/dX of a scalar for all points X of the surface. @p slopes are the derivatives of the
+  /// scalar with respect to the rows. Hanging nodes count as independent positions.
+  virtual void add_gradient(const Field                       &positions,
+                            const std::vector<RowSlopes<dim>> &slopes,
+                            Field                             &gradient) const = 0;
 
   /// Return the tributary slave area of each row [length^2]; force / area is a pressure.
   virtual std::vector<double> areas(const Field &positions) const = 0;

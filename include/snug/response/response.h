@@ -19,8 +19,10 @@ struct Partials
 
   /// dJ/du at fixed forces and positions, per subdomain of this rank.
   feti::PrimalVectors u;
-  /// dJ/d(force) at fixed u and positions, per contact row and equal on all ranks. The force
-  /// is lambda_i / nr_i as in ContactPoint, never lambda_i.
+  /// dJ/d(force) at fixed u and positions, per contact row and equal on all ranks: normal rows,
+  /// then tangential rows unless J depends on normal forces alone. The force is lambda_i / nr_i as
+  /// in ContactPoint, never lambda_i. Friction forces follow the normals without a spin, see
+  /// Contact::energy_gradient().
   std::vector<double> forces;
   /// dJ/dX at fixed u and forces: this rank's share at the local nodes, including hanging
   /// nodes. The sum over ranks is the derivative.

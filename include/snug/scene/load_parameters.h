@@ -59,6 +59,8 @@ struct LoadCaseParameters
   unsigned int cases = 1;
   /// motions of bodies and obstacles by name, see geometry::rigid_motion()
   std::vector<std::pair<std::string, std::string>> positions;
+  /// whether contacts continue from their slips in the load case before this one
+  bool load_step = false;
   /// whether loads keep their directions in space, instead of turning with the bodies
   bool loads_in_space = false;
 

@@ -164,6 +164,9 @@ unsigned int body_index(const Scene &scene, const std::string &name);
 /// Return the entry Materials of a body: "steel" or "core: steel, coat: rubber".
 std::string text_of_materials(const std::map<std::string, std::string> &materials);
 
+/// Return whether a pair has friction.
+bool has_friction(const Scene &scene);
+
 /// Return the materials of the regions called @p regions, in their order. Regions without a
 /// material get that of the body.
 std::vector<elasticity::Material>

@@ -5,25 +5,6 @@
 #include <snug/sensitivity/one_sided.h>
 
 namespace snug::sensitivity {
-/// The states of one design in all load cases.
-template <int dim>
-using LoadCases = std::vector<GradientProblem<dim>>;
-
-/// A response of one load case.
-template <int dim>
-struct Measured
-{
-  const response::Response<dim> *response;
-  unsigned int                   load_case;
-};
-
-/// Return the gradients of responses of load cases, in the order of @p measured. Responses of a
-/// load case share one block solve. The displacement derivatives of the load cases follow one
-/// another. Collective. @throws the same errors as gradients().
-template <int dim>
-Gradients<dim> gradients_of_cases(const LoadCases<dim>             &load_cases,
-                                  const std::vector<Measured<dim>> &measured);
-
 /// Return sum_c factors_c gradients_c of gradients from @p first on.
 template <int dim>
 Gradient<dim> weighted_sum(const std::vector<double>        &factors,
@@ -40,10 +21,10 @@ Gradient<dim> weighted_sum(const std::vector<double>        &factors,
  * @throws the same errors as gradients().
  */
 template <int dim>
-Gradients<dim> combined_gradients(const LoadCases<dim>             &load_cases,
-                                  const response::Response<dim>    &objective,
-                                  const std::vector<double>        &factors,
-                                  const std::vector<Measured<dim>> &others);
+Gradients<dim> combined_gradients(const LoadCases<dim>          &load_cases,
+                                  const response::Response<dim> &objective,
+                                  const std::vector<double>     &factors,
+                                  const MeasuredResponses<dim>  &others);
 
 /// Return the one-sided derivatives of the same J. Collective. @throws SolveError.
 template <int dim>

@@ -11,20 +11,21 @@ struct MethodChoice
   std::string reason;
 };
 
-/// Return the method that "auto" chooses for each of the responses of @p n_variables.
+/// Return the method that "auto" chooses for each of the responses of @p n_variables, where
+/// contacts have friction or not.
 template <int dim>
-std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
-                                           unsigned int          n_variables);
+std::vector<MethodChoice>
+cheapest_methods(const Responses<dim> &responses, unsigned int n_variables, bool with_friction);
 
 /**
- * Compute dJ/dalpha of every response by parameters.method. If parameters.shape_gradient is set,
- * compute dJ/dX too. A method that differentiates only along the variables gives dJ/dX only as the
- * field V (V'V)^-1 dJ/dalpha. The solver is at the geometry of the state before and after.
- * Collective.
+ * Compute dJ/dalpha of responses of load cases, in their order, by parameters.method. Responses of
+ * a load case share one block solve. If parameters.shape_gradient is set, compute dJ/dX too. A
+ * method that differentiates only along the variables gives dJ/dX only as the field V (V'V)^-1
+ * dJ/dalpha. The solver is at the geometry of the states after. Collective.
  * @throws SolveError, and InputError if a response has no energy gradient.
  */
 template <int dim>
-Gradients<dim> gradients(const GradientProblem<dim> &problem, const Responses<dim> &responses);
+Gradients<dim> gradients(const LoadCases<dim> &load_cases, const MeasuredResponses<dim> &responses);
 } // namespace snug::sensitivity
 
 #endif

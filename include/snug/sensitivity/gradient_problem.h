@@ -20,7 +20,23 @@ struct GradientProblem
   const GradientParameters       &parameters;
 };
 
-/// The responses that are differentiated.
+/// The states of one design in all load cases, in their order. A load step refers to the state that
+/// it continues (state::LoadCase::after).
+template <int dim>
+using LoadCases = std::vector<GradientProblem<dim>>;
+
+/// A response of one load case.
+template <int dim>
+struct Measured
+{
+  const response::Response<dim> *response;
+  unsigned int                   load_case; ///< index into LoadCases
+};
+
+template <int dim>
+using MeasuredResponses = std::vector<Measured<dim>>;
+
+/// Responses of one state.
 template <int dim>
 using Responses = std::vector<const response::Response<dim> *>;
 
@@ -44,9 +60,10 @@ template <int dim>
 struct Gradients
 {
   std::vector<Gradient<dim>> of_response;
-  /// u'_j at the local nodes, if the method computes it
+  /// u'_j at the local nodes, if the method computes it. The variables of the load cases follow one
+  /// another, here and below.
   std::vector<mesh::Field<dim>> displacement = {};
-  /// derivatives of the contact forces, per variable and contact row, if the method
+  /// derivatives of the normal contact forces, per variable and contact row, if the method
   /// is direct; equal on all ranks [force / variable]
   std::vector<std::vector<double>> forces                 = {};
   unsigned long                    f_mults                = 0;

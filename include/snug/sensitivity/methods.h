@@ -6,9 +6,10 @@
 
 namespace snug::sensitivity {
 /// Return whether dJ/dalpha needs a linear solve. It does not if the state makes J stationary or if
-/// J depends on the geometry alone.
+/// J depends on the geometry alone. @p with_friction tells that contacts have friction, where the
+/// state makes no J stationary.
 template <int dim>
-bool needs_solve(const response::Response<dim> &response);
+bool needs_solve(const response::Response<dim> &response, bool with_friction);
 
 /// Return the partial derivatives of all responses. Collective.
 template <int dim>
@@ -38,15 +39,25 @@ KktVectors residual_derivatives(const GradientProblem<dim> &problem);
 
 /**
  * Compute u'_j (per subdomain) and lambda'_j (owned rows), one column per variable,
- * by the direct method on the strongly active set. All columns use the
- * factorizations of the state. Collective. @throws SolveError.
+ * by the direct method on the strongly active set, for the residual_derivatives() @p data. All
+ * columns use the factorizations of the state. Collective. @throws SolveError.
  */
 template <int dim>
-KktVectors state_derivatives(const GradientProblem<dim> &problem);
+KktVectors state_derivatives(const GradientProblem<dim> &problem, const KktVectors &data);
 
-// Each of the following functions is one method for any responses. All of them are
-// collective and throw SolveError. With exact derivatives of the data, the first
-// two functions compute dJ/dX. The last two functions compute u'.
+/**
+ * @name Methods
+ * Each of the following functions is one method for any responses of any load cases. All of them
+ * are collective and throw SolveError. With exact derivatives of the data, the first two functions
+ * compute dJ/dX. The last two functions compute u'.
+ *
+ * In a sequence of load steps, the slips s_k = B_T (u_k - u_k-1) refer to the step before, so that
+ * ct_k has the term B_T u'_k-1 + B_T' u_k-1 - g' in its tangential rows. The direct method computes
+ * the derivatives of the steps forward. The adjoint method computes adjoint states backward: the
+ * multipliers eta_k of tangential rows add eta_k (B_T u_k-1 - g) to the response, as a function of
+ * step k - 1.
+ * @{
+ */
 
 /**
  * Compute J' = dJ/dX . V - lambda'(g' - B'u) for responses that need no solve:
@@ -54,26 +65,36 @@ KktVectors state_derivatives(const GradientProblem<dim> &problem);
  * @throws InputError for other responses.
  */
 template <int dim>
-Gradients<dim> energy_gradients(const GradientProblem<dim> &problem,
-                                const Responses<dim>       &responses);
+Gradients<dim> energy_gradients(const LoadCases<dim>         &load_cases,
+                                const MeasuredResponses<dim> &measured);
 
 /**
  * Compute J'_j = dJ/dX . V_j + w'ft_j + eta'ct_j with the adjoint_states() of all responses.
  */
 template <int dim>
-Gradients<dim> adjoint_gradients(const GradientProblem<dim> &problem,
-                                 const Responses<dim>       &responses);
+Gradients<dim> adjoint_gradients(const LoadCases<dim>         &load_cases,
+                                 const MeasuredResponses<dim> &measured);
 
 /// Compute J'_j = dJ/dX . V_j + dJ/du . u'_j + dJ/dlambda . lambda'_j.
 template <int dim>
-Gradients<dim> direct_gradients(const GradientProblem<dim> &problem,
-                                const Responses<dim>       &responses);
+Gradients<dim> direct_gradients(const LoadCases<dim>         &load_cases,
+                                const MeasuredResponses<dim> &measured);
 
 /// Compute differences of states solved from a cold start, by parameters.differences. The solver is
-/// left at a geometry other than that of the state.
+/// left at a geometry other than that of the states.
 template <int dim>
-Gradients<dim> difference_gradients(const GradientProblem<dim> &problem,
-                                    const Responses<dim>       &responses);
+Gradients<dim> difference_gradients(const LoadCases<dim>         &load_cases,
+                                    const MeasuredResponses<dim> &measured);
+/// @}
+
+/// Return the place among @p load_cases of the load step that load case @p k continues.
+template <int dim>
+std::optional<unsigned int> step_before(const LoadCases<dim> &load_cases, unsigned int k);
+
+/// Return whether responses need each of @p load_cases: their own, and the load steps before them.
+template <int dim>
+std::vector<bool> needed_cases(const LoadCases<dim>         &load_cases,
+                               const MeasuredResponses<dim> &measured);
 } // namespace snug::sensitivity
 
 #endif

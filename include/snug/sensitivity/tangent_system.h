@@ -6,10 +6,11 @@
 #include <snug/state/state_solver.h>
 
 namespace snug::sensitivity {
-/// Return the equality rows and the strongly active contact rows of a state.
+/// Return the equality rows and the strongly active contact rows of a state. Contacts with friction
+/// stick or slip as in the state, with D = |s| / b at the slips s of the state. Collective.
 template <int dim>
-qp::RowSet strong_rows(const state::StateSolver<dim>  &solver,
-                       const state::ContactState<dim> &state);
+qp::FreeRows strong_rows(const state::StateSolver<dim>  &solver,
+                         const state::ContactState<dim> &state);
 
 /**
  * The tangent of the optimality conditions on a set M of rows,
@@ -21,6 +22,10 @@ qp::RowSet strong_rows(const state::StateSolver<dim>  &solver,
  * with b = f' - K'u - B'^T lambda and c = g' - B'u, and adjoint states, with the
  * partial derivatives of a response.
  *
+ * Where contacts slip, mu = Z y and the rows are Z_0'(B z - c) = D y, see qp::FreeRows: the
+ * friction force changes with the normal force. Adjoint states solve the transposed system. Both
+ * are solved by qp::ProjectedGcr.
+ *
  * The dual of the system, min 1/2 mu'F mu - mu'(B K^+ b - c) with G mu = R'b, is solved by PCPG.
  * PCPG uses the factorizations of the state and needs no other one. It first minimizes in the
  * F-orthonormal directions recorded in the solve of the state.
@@ -31,7 +36,7 @@ public:
   /// @p feti must outlive this object. Solves begin in the directions @p known of
   /// the state's solver. Collective.
   TangentSystem(const feti::LoadedProblem  &feti,
-                const qp::RowSet           &rows,
+                const qp::FreeRows         &rows,
                 const qp::SolverParameters &parameters,
                 Solves                      solves,
                 const qp::DirectionBasis   &known);
@@ -49,12 +54,18 @@ private:
                            qp::MultiVector           &residual,
                            const std::vector<double> &tolerances,
                            bool                       deflates) const;
-  bool            balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const;
+  template <typename Krylov>
+  bool minimize_by(Krylov                     krylov,
+                   qp::MultiVector           &mu,
+                   qp::MultiVector           &residual,
+                   const std::vector<double> &tolerances) const;
+  bool balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const;
 
   const feti::LoadedProblem         &feti;
   const qp::SolverParameters         parameters;
   const Solves                       solves;
   const std::unique_ptr<qp::FreeSet> free_set;
+  const bool                         is_symmetric; ///< no contact slips
   const qp::DirectionBasis           known;
 };
 } // namespace snug::sensitivity

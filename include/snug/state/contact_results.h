@@ -10,6 +10,12 @@ template <int dim>
 typename mesh::BodyMesh<dim>::Field
 nodal_values(const StateSolver<dim> &solver, const feti::PrimalVectors &u, unsigned int column);
 
+/// Return the forces of the contact rows of a state: normal rows, then tangential rows [force].
+/// Collective.
+template <int dim>
+std::vector<double> contact_row_forces(const StateSolver<dim>  &solver,
+                                       const ContactState<dim> &state);
+
 /// Set displacement, energies and contact points of a state from its u and dual solution. @p rows
 /// are the rows at the geometry of the state. Collective.
 template <int dim>

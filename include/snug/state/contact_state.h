@@ -1,10 +1,12 @@
 #ifndef snug_state_contact_state_h
 #define snug_state_contact_state_h
 
+#include <snug/base/values.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/qp/solver.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -16,6 +18,13 @@ namespace snug::state {
  *   max_i(F_ii |lambda_i|, |f_i| / K_ii).
  * - Negative pressure is max(-lambda_I)+ over max lambda_I.
  * - Complementarity is |lambda' w| over the strain energy.
+ *
+ * With friction, for the slips s = w_T and the limits b of the cones (qp::FrictionCone), and with
+ * the length c_F that continuity is compared with:
+ * - Cone is max(|lambda_T| - b)+ / max b.
+ * - Creep is max |s| (b - |lambda_T|)+ / (c_F max b): slip without the full friction force.
+ * - Dissipation is sum(b |s| - lambda_T . s) over the strain energy: slip in another direction than
+ *   that of the friction force.
  */
 struct Certificate
 {
@@ -24,11 +33,27 @@ struct Certificate
   double penetration       = 0.;
   double negative_pressure = 0.;
   double complementarity   = 0.;
+  double cone              = 0.;
+  double creep             = 0.;
+  double dissipation       = 0.;
 
   double worst() const;
 };
 
-/// One contact row of a state, in physical units.
+/// Motion of a contact with friction along the surface.
+enum class FrictionStatus
+{
+  none, ///< without friction
+  open,
+  stick,
+  slip
+};
+inline Names names(FrictionStatus)
+{
+  return {{"none"}, {"open"}, {"stick"}, {"slip"}};
+}
+
+/// One contact of a state, in physical units.
 struct ContactPoint
 {
   double force    = 0.;    ///< lambda_i / nr_i [force]; forces >= 0 push apart
@@ -38,6 +63,15 @@ struct ContactPoint
   bool   active   = false; ///< in the active set
   bool   strong   = false; ///< force above the strong tolerance
   bool   weak     = false; ///< neither force nor gap, within tolerances
+
+  /// @name Friction, in space
+  /// @{
+  FrictionStatus       friction = FrictionStatus::none;
+  dealii::Tensor<1, 3> shear; ///< -shear acts on the slave side; along the slip [force]
+  /// displacement of the slave side relative to the master, in this load step [length]
+  dealii::Tensor<1, 3> slip;
+  double               limit = 0.; ///< maximum of |shear| [force]
+  /// @}
 };
 
 /// Quantities that show how far a state leaves the range of the linear model; see
@@ -73,7 +107,7 @@ template <int dim>
 struct PairState
 {
   std::string            name;   ///< "slave: master"
-  dealii::Tensor<1, dim> force;  ///< force on the slave side [force]
+  dealii::Tensor<1, dim> force;  ///< force on the slave side, with friction [force]
   dealii::Tensor<1, 3>   moment; ///< moment on the slave side about the centre
   dealii::Tensor<1, dim> centre; ///< point of an obstacle, else mean place weighted by force
   dealii::Tensor<1, dim> peak;   ///< position of the maximum pressure
@@ -92,12 +126,15 @@ struct ContactState
 {
   using Field = typename mesh::BodyMesh<dim>::Field;
 
-  unsigned int                load_case = 0;
-  unsigned int                pairing   = 0; ///< number of new contact searches before this state
-  Field                       positions;     ///< [length]
-  Field                       displacement;  ///< continuous, see make_continuous() [length]
-  feti::PrimalVectors         u;             ///< per subdomain
-  qp::DualSolution            dual;
+  unsigned int        load_case = 0;
+  unsigned int        pairing   = 0; ///< number of new contact searches before this state
+  Field               positions;     ///< [length]
+  Field               displacement;  ///< continuous, see make_continuous() [length]
+  feti::PrimalVectors u;             ///< per subdomain
+  qp::DualSolution    dual;
+  /// slips of the tangential rows from the start of a sequence of load steps: before this step, or
+  /// empty in the first step, and after it [length]
+  std::vector<double>         slips_before, slips;
   std::vector<ContactPoint>   contact;
   std::vector<PairState<dim>> pairs;
   /// reactions of the supports on the bodies, about the means of their nodes; for sections of
@@ -111,22 +148,35 @@ struct ContactState
   double                 compliance            = 0.; ///< f'u
   double                 strain_energy         = 0.; ///< 1/2 u'Ku
   dealii::Tensor<1, dim> contact_force;              ///< on the slave sides [force]
-  double                 contact_area    = 0.;       ///< area of active rows
-  double                 max_pressure    = 0.;
-  unsigned int           active_contacts = 0;
-  unsigned int           weak_contacts   = 0;
+  double                 contact_area      = 0.;     ///< area of active rows
+  double                 max_pressure      = 0.;
+  unsigned int           active_contacts   = 0;
+  unsigned int           weak_contacts     = 0;
+  unsigned int           slipping_contacts = 0;  ///< contacts with friction that slip
+  double                 dissipation       = 0.; ///< sum of shear . slip, work of friction
   /// minimum of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), which is the distance from
   /// a weakly active contact; infinite without contacts
-  double         degeneracy_distance = std::numeric_limits<double>::infinity();
-  double         solved_to           = 0.; ///< relative KKT residual requested from the solver
-  double         tolerance           = 0.; ///< relative tolerance that the certificate meets
-  unsigned long  f_mults             = 0;  ///< F-mults of the contact solve
-  unsigned long  linear_f_mults      = 0;  ///< F-mults of a linear solve; 0: not requested
+  double degeneracy_distance = std::numeric_limits<double>::infinity();
+  /// minimum over closed contacts with friction of max(1 - |shear| / limit, |slip| / max F_ii
+  /// lambda_i), which is the distance from a change between stick and slip
+  double         friction_distance = std::numeric_limits<double>::infinity();
+  double         solved_to         = 0.; ///< relative KKT residual requested from the solver
+  double         tolerance         = 0.; ///< relative tolerance that the certificate meets
+  unsigned long  f_mults           = 0;  ///< F-mults of the contact solve
+  unsigned long  linear_f_mults    = 0;  ///< F-mults of a linear solve; 0: not requested
   Certificate    certificate;
   ValidityChecks validity;
   /// one line per body that supports and strong contacts leave free to move; the body is in
   /// equilibrium, but its position along these motions is not determined
   std::vector<std::string> free_bodies;
+
+  /// Return whether a contact may carry friction forces.
+  bool has_friction() const
+  {
+    return std::any_of(contact.begin(), contact.end(), [](const ContactPoint &point) {
+      return point.friction != FrictionStatus::none;
+    });
+  }
 };
 } // namespace snug::state
 

@@ -19,7 +19,8 @@ class Gluing
 public:
   /**
    * Build the rows for the copies of all nodes, for @p held and for the contact rows that
-   * @p reference contains at the reference geometry (equal on all ranks). The rank that owns a row
+   * @p reference contains at the reference geometry (equal on all ranks), with the places
+   * @p tangents of the tangential rows. The rank that owns a row
    * follows from the @p clusters of all positions of the bodies (contact_clusters()), so that the
    * rows of gluing and supports are the same in all positions. @p held must outlive this object.
    * Collective.
@@ -29,15 +30,18 @@ public:
          const mesh::Surface<dim>                  &surface,
          const supports::DirichletConstraints<dim> &held,
          const RowCoefficients<dim>                &reference,
+         const std::vector<contact::Tangent>       &tangents,
          const std::vector<unsigned int>           &clusters);
 
   const feti::RowLayout &layout() const { return *rows.layout; }
 
   /// Return the global number of dual rows of all ranks, including contact rows.
   unsigned int n_rows() const { return rows.n_global; }
-  unsigned int n_contact_rows() const { return rows.scales.size(); }
+  /// Return the number of normal rows of contact.
+  unsigned int n_contact_rows() const { return rows.scales.size() - n_tangents; }
 
-  /// Return nr of each contact row; the physical force is lambda / nr.
+  /// Return nr of each contact row; the physical force is lambda / nr. Tangential rows follow the
+  /// normal rows. The scale is 0 where the supports at its nodes hold a row entirely.
   const std::vector<double> &contact_scales() const { return rows.scales; }
 
   /// Return the unknowns of subdomain @p s of this rank that have an entry in B, ascending.
@@ -59,17 +63,25 @@ public:
                                              const RowCoefficients<dim> &derivative,
                                              unsigned int                load_case) const;
 
+  /// Add @p values of the tangential rows [length] to @p g of the owned rows.
+  void add_to_tangents(const std::vector<double> &values, qp::MultiVector &g) const;
+
   /// Return the gap of contact row @p i in a load case, minus the part that the displacements held
   /// at its nodes take [length].
   double gap(unsigned int i, const RowCoefficients<dim> &rows, unsigned int load_case) const;
 
-  /// Return the contact rows that the supports at their nodes hold entirely. Such rows have no dual
+  /// Return the normal rows that the supports at their nodes hold entirely. Such rows have no dual
   /// row, and their gaps must not be negative.
   std::vector<unsigned int> vanished_rows() const;
 
-  /// Return the values of the owned contact rows on all ranks, in the order of the contact rows.
+  /// Return the values of the owned contact rows on all ranks: normal rows, then tangential rows.
   /// Collective.
   std::vector<double> gather_contact(const double *owned_values) const;
+
+  /// Return the friction cones of the owned contacts, for the law of each contact and its area
+  /// [length^2].
+  std::vector<qp::FrictionCone> cones(const contact::Contact<dim> &contact,
+                                      const std::vector<double>   &areas) const;
 
   /**
    * Return the multipliers of q . u = s at each held node and direction, on all ranks, as if
@@ -79,7 +91,8 @@ public:
   std::vector<std::vector<double>> reactions(const double               *owned_lambda,
                                              const RowCoefficients<dim> &rows) const;
 
-  /// Return the contact row of each owned row, or n_contact_rows() for the other rows.
+  /// Return the contact row of each owned row, counting normal rows and then tangential rows, or
+  /// the number of all contact rows for the other rows.
   const std::vector<unsigned int> &contact_of_row() const { return owned_contact; }
 
 private:
@@ -92,6 +105,7 @@ private:
 
   const supports::DirichletConstraints<dim> &held;
   GluingRows<dim>                            rows;
+  const unsigned int                         n_tangents;
   std::vector<unsigned int>                  owned_contact;
 };
 } // namespace snug::state

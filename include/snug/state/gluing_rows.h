@@ -1,7 +1,7 @@
 #ifndef snug_state_gluing_rows_h
 #define snug_state_gluing_rows_h
 
-#include <snug/contact/row_group.h>
+#include <snug/contact/contact.h>
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>
@@ -17,7 +17,20 @@ template <int dim>
 struct RowCoefficients
 {
   std::vector<contact::Row<dim>>              contact;
-  std::vector<supports::ConstraintFrame<dim>> held; ///< per held node
+  std::vector<contact::Row<dim>>              tangents; ///< tangential rows of contacts
+  std::vector<supports::ConstraintFrame<dim>> held;     ///< per held node
+
+  /// @name Normal rows, then tangential rows
+  /// @{
+  unsigned int n_rows() const
+  {
+    return static_cast<unsigned int>(contact.size() + tangents.size());
+  }
+  const contact::Row<dim> &row(unsigned int i) const
+  {
+    return i < contact.size() ? contact[i] : tangents[i - contact.size()];
+  }
+  /// @}
 };
 
 /**
@@ -25,9 +38,8 @@ struct RowCoefficients
  * row of one of the @p positions couples are in one cluster.
  */
 template <int dim>
-std::vector<unsigned int>
-contact_clusters(unsigned int                                               n_nodes,
-                 const std::vector<const std::vector<contact::Row<dim>> *> &positions);
+std::vector<unsigned int> contact_clusters(unsigned int                             n_nodes,
+                                           const std::vector<RowCoefficients<dim>> &positions);
 
 /**
  * This class is the topology of Gluing: the owner of each row of B, and the copies of nodes that
@@ -42,7 +54,7 @@ public:
   enum class Source : unsigned int
   {
     constant, ///< no quantity
-    contact,  ///< coefficient `item` of contact row `index`
+    contact,  ///< coefficient `item` of RowCoefficients::row(`index`)
     held      ///< direction `item` of held node `index`
   };
 
@@ -68,6 +80,7 @@ public:
              const mesh::Surface<dim>                  &surface,
              const supports::DirichletConstraints<dim> &held,
              const RowCoefficients<dim>                &reference,
+             const std::vector<contact::Tangent>       &tangents,
              const std::vector<unsigned int>           &clusters);
 
   /// Return the part of a coefficient at a surface node that remains after projecting it off the
@@ -79,7 +92,7 @@ public:
   std::unique_ptr<feti::RowLayout> layout;
   std::vector<std::vector<Entry>>  entries; ///< per subdomain
   std::vector<OwnedRow>            owned;
-  std::vector<double>              scales; ///< nr per contact row
+  std::vector<double>              scales; ///< nr per RowCoefficients::row(), or 0
   std::vector<unsigned int>        copies; ///< per surface node
   /// held node of each surface node, or held.n_nodes()
   std::vector<unsigned int> held_of_surface;
@@ -94,16 +107,17 @@ private:
   struct Message;
 
   void   collect_surface(const mesh::Tearing &tearing);
-  void   scale_rows(const RowCoefficients<dim> &reference);
+  void   scale_rows(const RowCoefficients<dim>          &reference,
+                    const std::vector<contact::Tangent> &tangents);
   Copies collect_copies(const mesh::Tearing             &tearing,
                         const std::vector<unsigned int> &rank_of_contact) const;
   void   number_node_rows(const Copies               &nodes,
                           const RowCoefficients<dim> &reference,
                           std::vector<Message>       &messages);
-  void   number_contact_rows(const Copies                         &nodes,
-                             const std::vector<contact::Row<dim>> &reference_rows,
-                             const std::vector<unsigned int>      &rank_of_contact,
-                             std::vector<Message>                 &messages);
+  void   number_contact_rows(const Copies                    &nodes,
+                             const RowCoefficients<dim>      &reference,
+                             const std::vector<unsigned int> &rank_of_contact,
+                             std::vector<Message>            &messages);
   void   send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
   const mesh::BodyMesh<dim>                 &mesh;

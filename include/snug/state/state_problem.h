@@ -40,9 +40,10 @@ public:
    * Compute the matrices at @p positions and the dual problem of a load case, unless they are
    * known. Only subdomains whose nodes moved since the last call are assembled and factorized.
    * Collective.
+   * @param[in] slips of the tangential rows before this load step [length]; empty: none.
    * @throws TangledMesh; SolveError where prescribed displacements press bodies into one another.
    */
-  void set(const Field &positions, unsigned int load_case);
+  void set(const Field &positions, unsigned int load_case, const std::vector<double> &slips = {});
 
   /// Return the present geometry, valid until the next call of set() or pair().
   const Geometry<dim> &geometry() const { return present; }
@@ -75,7 +76,8 @@ public:
   feti::FactorCache                                    factor_cache;
 
 private:
-  void make_positions();
+  RowCoefficients<dim> rows_of(const PositionProblem<dim> &at, const Field &x) const;
+  void                 make_positions();
   void for_each_position(const std::function<void(PositionProblem<dim> &)> &pair) const;
   void glue(const Field &x);
   void forget();
@@ -98,6 +100,7 @@ private:
   /// by load case; null: not set at this geometry. They refer to the linearizations of the
   /// problems.
   std::vector<std::unique_ptr<const feti::LoadedProblem>> loaded_problems;
+  std::vector<std::vector<double>>                        slips_before; ///< of loaded_problems
 };
 } // namespace snug::state
 

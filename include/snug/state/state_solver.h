@@ -28,13 +28,18 @@ public:
    * Return the state of a load case at @p positions. The solver iterates until the certificate
    * meets the tolerance. All load cases of one geometry share its matrices and factorizations.
    * Collective.
+   * @param[in] earlier states at these positions, by load case, among them that of the load case
+   *   whose slips this one continues (LoadCase::after).
    * @throws TangledMesh, SolveError.
    */
-  ContactState<dim>
-  solve(const Field &positions, const qp::WarmStart &start, unsigned int load_case = 0);
+  ContactState<dim> solve(const Field                          &positions,
+                          const qp::WarmStart                  &start,
+                          unsigned int                          load_case = 0,
+                          const std::vector<ContactState<dim>> &earlier   = {});
 
   /// Return the multipliers of the last of @p states whose position and loads are those of a load
   /// case, the loads up to a factor and to 45 degrees, times this factor; nothing if there is none.
+  /// A load step starts from the state that it continues, where all closed contacts stick.
   /// @p states and the load case are at @p positions. Collective.
   qp::WarmStart scaled_start(const std::vector<ContactState<dim>> &states,
                              const Field                          &positions,
@@ -77,6 +82,8 @@ public:
     return *problem->of(load_case).contact;
   }
   const Gluing<dim> &gluing(unsigned int load_case) const { return *problem->of(load_case).gluing; }
+  /// Return whether contacts of any position have friction.
+  bool has_friction() const;
   /// Return the motion of a body to the position of the load case.
   geometry::RigidMotion<dim> motion(unsigned int load_case, unsigned int body) const
   {
@@ -106,10 +113,11 @@ public:
   RunContext  &context() const { return problem->context; }
 
 private:
-  ContactState<dim> solve_present(const Field         &positions,
-                                  const qp::WarmStart &start,
-                                  unsigned int         load_case,
-                                  double               tolerance) const;
+  ContactState<dim> solve_present(const Field               &positions,
+                                  const qp::WarmStart       &start,
+                                  unsigned int               load_case,
+                                  double                     tolerance,
+                                  const std::vector<double> &slips) const;
   void solve_to_certificate(const qp::WarmStart &start, ContactState<dim> &state) const;
 
   std::unique_ptr<StateProblem<dim>> problem;

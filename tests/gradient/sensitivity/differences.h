@@ -110,10 +110,10 @@ public:
                                         const std::vector<std::string>        &names,
                                         const sensitivity::GradientParameters &parameters)
   {
-    sensitivity::Responses<dim> chosen;
+    sensitivity::MeasuredResponses<dim> chosen;
     for (const auto &name : names)
-      chosen.push_back(responses.at(name).get());
-    return sensitivity::gradients(at(state, parameters), chosen);
+      chosen.push_back({responses.at(name).get(), 0});
+    return sensitivity::gradients<dim>({at(state, parameters)}, chosen);
   }
 
   Problem<dim>                                                    problem;

@@ -77,7 +77,7 @@ double reverse_error(const TwoBoxes<dim> &scene, const snug::contact::Contact<di
       direct += forces[i] * term;
       scale += std::abs(forces[i] * term);
     }
-  const auto gradient = contact.energy_gradient(scene.positions, displacement, forces);
+  const auto gradient = contact.energy_gradient(scene.positions, displacement, {forces});
   for (unsigned int node = 0; node < gradient.size(); ++node)
     reverse += gradient[node] * velocity[node];
   return std::abs(direct - reverse) / scale;

@@ -59,7 +59,9 @@ struct TestScene
   mesh::Idealization         idealization = mesh::Idealization::natural(dim);
   /// if empty, the punch's bottom on the foundation's top
   std::vector<contact::Pair> pairs;
-  contact::Method            method         = contact::Method::nodal; ///< of that pair
+  contact::Method            method         = contact::Method::nodal;  ///< of that pair
+  contact::Friction          friction       = contact::Friction::none; ///< of that pair
+  std::string                friction_value = "0";                     ///< its coefficient or bound
   unsigned int               degree         = 1;
   std::vector<unsigned int>  control_points = {1, 1};
   std::vector<double>        design         = {0.};
@@ -268,6 +270,11 @@ public:
         model.pairs = {{{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
         model.pairs[0].parameters.slave  = contact::Slave::first;
         model.pairs[0].parameters.method = scene.method;
+        auto &parameters                 = model.pairs[0].parameters;
+        parameters.friction              = scene.friction;
+        (scene.friction == contact::Friction::Tresca ? parameters.friction_bound
+                                                     : parameters.friction_coefficient) =
+          scene.friction_value;
       }
     model.feti   = scene.feti;
     model.solver = scene.solver;

@@ -1,0 +1,69 @@
+#ifndef snug_contact_tangent_row_h
+#define snug_contact_tangent_row_h
+
+#include <snug/contact/row_group.h>
+#include <snug/faces/point_field.h>
+
+namespace snug::contact {
+/// Data of the tangential rows of one contact row that a contact search fixes.
+template <int dim>
+struct TangentFrame
+{
+  /// direction in space from which the tangents in 3D are made
+  dealii::Tensor<1, dim> reference;
+  /// surface nodes of the master on which the couple acts; empty: no couple
+  std::vector<unsigned int> masters;
+  /// number of tangential directions in which these nodes spread, see tangent_row(); 0: no couple
+  unsigned int           spread = 0;
+  dealii::Tensor<1, dim> displacement; ///< of the obstacle in space [length]
+};
+
+/**
+ * Return tangent @p index of the frame with the unit normal @p n. In 2D it is n turned by +90
+ * degrees. In 3D, with the reference direction r,
+ *   t_0 = (r - (r . n) n) / |r - (r . n) n|,  t_1 = n x t_0.
+ */
+template <int dim, typename Number>
+dealii::Tensor<1, dim, Number> tangent_direction(const dealii::Tensor<1, dim>         &reference,
+                                                 const dealii::Tensor<1, dim, Number> &n,
+                                                 unsigned int                          index);
+
+/**
+ * Return the tangential row along @p t, at right angles to the normal n, of a contact with the
+ * normal @p row at the nodal positions @p x. All vectors are in space. The row is linear in t. Its
+ * coefficients are
+ *   f_a t + beta_a n,  f_a = c_a . n,
+ * where c_a are the coefficients of the normal row, and its gap is t . w with the displacement w of
+ * an obstacle. The forces f_a t alone would have the moment -g n x t, g = -n . sum_a f_a x_a, so
+ * that common rotations of both bodies would slip where there is a gap g. The couple beta_a n on
+ * nodes of the master, which may be others than those of the row, cancels this moment:
+ *   beta_a = y_a . v,  v = -g H^+ t,  H = sum_a P y_a y_a' P,  P = I - n n',
+ * where y_a is the position relative to the mean of these nodes. H^+ is the inverse of H in the
+ * tangent plane if the nodes spread in all of its directions. It is H / tr(H)^2, which is the
+ * pseudoinverse, if the nodes lie on a line.
+ */
+template <int dim, typename Number>
+Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
+                             const dealii::Tensor<1, dim, Number> &t,
+                             const TangentFrame<dim>              &frame,
+                             const faces::PointField<dim, Number> &x);
+
+/// Return the row along tangent @p index of the frame.
+template <int dim, typename Number>
+Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
+                             unsigned int                          index,
+                             const TangentFrame<dim>              &frame,
+                             const faces::PointField<dim, Number> &x)
+{
+  return tangent_row(row, tangent_direction(frame.reference, row.normal, index), frame, x);
+}
+
+/// Return in how many directions at right angles to @p normal the masters of @p frame spread: by
+/// more than 1/1000 of their spread in space and of their largest tangential spread.
+template <int dim>
+unsigned int tangential_spread(const dealii::Tensor<1, dim>             &normal,
+                               const TangentFrame<dim>                  &frame,
+                               const typename mesh::Surface<dim>::Field &positions);
+} // namespace snug::contact
+
+#endif
