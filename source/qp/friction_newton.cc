@@ -224,10 +224,10 @@ void FrictionRun::set_friction(const FrictionCone &cone,
   const auto   x      = cone.trial_force(F, lambda, w);
   const double length = std::hypot(x[0], x[1]);
   bool         slides = length > limit + negligible[cone.tangents[0]];
-  if (cone.n_tangents == 1)
-    for (const Slip &before : free_set->free_rows().slips())
-      if (before.cone.normal == cone.normal && before.direction[0] * x[0] < 0.)
-        slides = false;
+  for (const Slip &before : free_set->free_rows().slips())
+    if (before.cone.normal == cone.normal &&
+        before.direction[0] * x[0] + before.direction[1] * x[1] < 0.)
+      slides = false;
   for (unsigned int t = 0; t < cone.n_tangents; ++t)
     rows[cone.tangents[t]] = !slides;
   if (!slides)

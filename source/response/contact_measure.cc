@@ -16,27 +16,20 @@ const double integrable_power = 4.4;
 using Counted = std::vector<std::pair<unsigned int, double>>;
 
 template <int dim>
-PressureRows all_rows(const state::ContactState<dim> &state)
-{
-  PressureRows result;
-  for (const auto &point : state.contact)
-    {
-      result.force.push_back(point.force);
-      result.area.push_back(point.area);
-    }
-  return result;
-}
-
-template <int dim>
 class ContactMeasure : public Response<dim>
 {
 public:
   ContactMeasure(const ResponseParameters       &parameters,
                  const Measure                  &measure,
                  const std::vector<std::string> &entries,
-                 const double                    power)
-    : pair(parameters.pair), measure(measure), read(entries), power(power)
-  {}
+                 const double                    power,
+                 const AmountOf                 &amount)
+    : pair(parameters.pair), measure(measure), read(entries), power(power), amount(amount)
+  {
+    const auto *const function =
+      amount.target<Amount (*)(const state::ContactPoint &, const contact::RowFriction &)>();
+    of_pressure = function != nullptr && *function == normal_force;
+  }
 
   std::vector<std::string> entries() const override
   {
@@ -56,13 +49,15 @@ public:
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
-    return measured_of(solver, state.load_case, all_rows(state)).value;
+    return measured_of(solver, state.load_case, all_rows(solver, state)).value;
   }
 
   std::optional<double> measured(const state::StateSolver<dim>   &solver,
                                  const unsigned int               load_case,
                                  const std::vector<PressureRows> &of_pairs) const override
   {
+    if (!of_pressure)
+      return {};
     const auto   chosen = chosen_pairs(solver, pair, load_case);
     PressureRows rows;
     for (unsigned int p = 0; p < chosen.size(); ++p)
@@ -80,6 +75,8 @@ public:
                                      const unsigned int             load_case,
                                      const PressureRows            &rows) const override
   {
+    if (!of_pressure)
+      return {};
     return measured_of(solver, load_case, rows);
   }
 
@@ -87,20 +84,56 @@ public:
                          const state::ContactState<dim> &state) const override
   {
     // In J(p, A(X)) the areas are functions of the positions at fixed forces.
-    const auto    measured = measured_of(solver, state.load_case, all_rows(state));
+    auto          measured = measured_of(solver, state.load_case, all_rows(solver, state));
+    const auto   &contact  = solver.contact(state.load_case);
     Partials<dim> result;
-    result.forces = measured.by_force;
     result.positions.resize(solver.mesh().n_points());
+    std::vector<Amount> amounts;
+    for (unsigned int i = 0; i < state.contact.size(); ++i)
+      {
+        amounts.push_back(amount(state.contact[i], contact.friction(i)));
+        result.forces.push_back(measured.by_force[i] * amounts[i].by_normal);
+        measured.by_area[i] += measured.by_force[i] * amounts[i].by_area;
+      }
+    if (!of_pressure)
+      {
+        const auto directions =
+          contact.tangent_directions(contact.rows(solver.surface().gather(state.positions)));
+        for (unsigned int j = 0; j < directions.size(); ++j)
+          {
+            const unsigned int i        = contact.tangents()[j].row;
+            double             by_shear = 0., by_slip = 0.;
+            for (int d = 0; d < dim; ++d)
+              {
+                by_shear += measured.by_force[i] * amounts[i].by_shear[d] * directions[j][d];
+                by_slip += measured.by_force[i] * amounts[i].by_slip[d] * directions[j][d];
+              }
+            result.forces.push_back(by_shear);
+            result.slips.push_back(by_slip);
+          }
+      }
     // The gradient at the surface nodes is replicated: each rank adds the gradient at its own
     // nodes.
-    solver.surface().add_owned(solver.contact(state.load_case)
-                                 .area_gradient(solver.surface().gather(state.positions),
-                                                measured.by_area),
+    solver.surface().add_owned(contact.area_gradient(solver.surface().gather(state.positions),
+                                                     measured.by_area),
                                result.positions);
     return result;
   }
 
 private:
+  PressureRows all_rows(const state::StateSolver<dim>  &solver,
+                        const state::ContactState<dim> &state) const
+  {
+    PressureRows result;
+    for (unsigned int i = 0; i < state.contact.size(); ++i)
+      {
+        const auto &law = solver.contact(state.load_case).friction(i);
+        result.force.push_back(amount(state.contact[i], law).value);
+        result.area.push_back(state.contact[i].area);
+      }
+    return result;
+  }
+
   /// Return the measure of the counted rows. All other rows have zero derivatives. Contact
   /// points are replicated, so the function needs no communication.
   Measured measured_of(const state::StateSolver<dim> &solver,
@@ -148,8 +181,49 @@ private:
   const Measure                  measure;
   const std::vector<std::string> read;
   const double                   power; ///< maximum power of the pressure under an integral
+  const AmountOf                 amount;
+  bool                           of_pressure; ///< the amount is the normal force
 };
 } // namespace
+
+Amount normal_force(const state::ContactPoint &point, const contact::RowFriction &)
+{
+  return {point.force, 1., 0., {}, {}};
+}
+
+Amount shear_force(const state::ContactPoint &point, const contact::RowFriction &)
+{
+  const double length = point.shear.norm();
+  Amount       result{length, 0., 0., {}, {}};
+  if (length > 0.)
+    result.by_shear = point.shear / length;
+  return result;
+}
+
+Amount shear_reserve(const state::ContactPoint &point, const contact::RowFriction &law)
+{
+  Amount result = shear_force(point, law);
+  // Slip has no reserve; its rounding error is no area.
+  if (point.friction != state::FrictionStatus::stick || !(point.limit > result.value))
+    return {};
+  return {point.limit - result.value, law.coefficient, law.bound, -result.by_shear, {}};
+}
+
+Amount slip_over_area(const state::ContactPoint &point, const contact::RowFriction &)
+{
+  const double length = point.slip.norm();
+  Amount       result;
+  // The slip of contacts that stick is the error of the solution, and that of open ones no motion
+  // along a surface.
+  if (point.friction != state::FrictionStatus::slip || length == 0.)
+    return result;
+  return {length * point.area, 0., length, {}, point.slip * (point.area / length)};
+}
+
+Amount friction_work(const state::ContactPoint &point, const contact::RowFriction &)
+{
+  return {point.shear * point.slip, 0., 0., point.slip, point.shear};
+}
 
 template <int dim>
 std::vector<bool> chosen_pairs(const state::StateSolver<dim> &solver,
@@ -188,9 +262,10 @@ template <int dim>
 std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &parameters,
                                                const Measure                  &measure,
                                                const std::vector<std::string> &entries,
-                                               const double                    power)
+                                               const double                    power,
+                                               const AmountOf                 &amount)
 {
-  return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries, power);
+  return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries, power, amount);
 }
 
 template std::vector<bool>
@@ -202,11 +277,13 @@ row_shares(const state::StateSolver<2> &, const std::string &, unsigned int);
 template std::unique_ptr<Response<2>> contact_measure(const ResponseParameters &,
                                                       const Measure &,
                                                       const std::vector<std::string> &,
-                                                      double);
+                                                      double,
+                                                      const AmountOf &);
 template std::vector<double>
 row_shares(const state::StateSolver<3> &, const std::string &, unsigned int);
 template std::unique_ptr<Response<3>> contact_measure(const ResponseParameters &,
                                                       const Measure &,
                                                       const std::vector<std::string> &,
-                                                      double);
+                                                      double,
+                                                      const AmountOf &);
 } // namespace snug::response

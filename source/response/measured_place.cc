@@ -105,6 +105,19 @@ dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters)
 }
 
 template <int dim>
+dealii::Tensor<1, 3> moment_axis(const ResponseParameters &parameters)
+{
+  const Component component = parameters.component;
+  if (component == Component::normal || (dim == 2 && component != Component::z))
+    throw bad_entry(parameters.path("Component"), to_text(component),
+                    dim == 2 ? "must be z, the axis of the moment"
+                             : "must be x, y or z, the axis of the moment");
+  dealii::Tensor<1, 3> axis;
+  axis[static_cast<unsigned int>(component) - static_cast<unsigned int>(Component::x)] = 1.;
+  return axis;
+}
+
+template <int dim>
 std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim> &solver,
                                                     const ResponseParameters      &parameters)
 {
@@ -159,6 +172,7 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
 
 #define SNUG_INSTANTIATE(dim)                                                                   \
   template dealii::Tensor<1, dim>                unit_vector(const ResponseParameters &);       \
+  template dealii::Tensor<1, 3>                  moment_axis<dim>(const ResponseParameters &);  \
   template std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim> &, \
                                                                const ResponseParameters &);     \
   template std::vector<CellWeights>              find_point(const state::StateSolver<dim> &,    \

@@ -136,4 +136,13 @@ Measured pressure_variance(const PressureRows &rows)
     }
   return result;
 }
+
+Measured total(const PressureRows &rows)
+{
+  Measured result{0., std::vector<double>(rows.force.size(), 1.),
+                  std::vector<double>(rows.force.size(), 0.)};
+  for (const double force : rows.force)
+    result.value += force;
+  return result;
+}
 } // namespace snug::response

@@ -84,21 +84,13 @@ private:
   const ResponseParameters parameters;
   const bool               is_moment;
 
-  /// Return the axis of a moment or the direction of a force.
   dealii::Tensor<1, 3> axis() const
   {
-    dealii::Tensor<1, 3> e;
-    if (is_moment && (parameters.component == Component::normal ||
-                      (dim == 2 && parameters.component != Component::z)))
-      throw bad_entry(parameters.path("Component"), to_text(parameters.component),
-                      dim == 2 ? "must be z, the axis of the moment"
-                               : "must be x, y or z, the axis of the moment");
     if (is_moment)
-      e[static_cast<unsigned int>(parameters.component) - static_cast<unsigned int>(Component::x)] =
-        1.;
-    else
-      for (unsigned int c = 0; c < dim; ++c)
-        e[c] = unit_vector<dim>(parameters)[c];
+      return moment_axis<dim>(parameters);
+    dealii::Tensor<1, 3> e;
+    for (unsigned int c = 0; c < dim; ++c)
+      e[c] = unit_vector<dim>(parameters)[c];
     return e;
   }
 

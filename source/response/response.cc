@@ -91,15 +91,71 @@ ChoiceTable<MakeResponse<dim>> contact_responses()
        return contact_measure<dim>(parameters, pressure_variance);
      }}};
 }
+
+template <int dim>
+ChoiceTable<MakeResponse<dim>> friction_responses()
+{
+  const auto power_mean = [](const AmountOf &amount, const bool peak) {
+    return [amount, peak](const Parameters &parameters) {
+      const double p = parameters.exponent;
+      return contact_measure<dim>(
+        parameters,
+        [p, peak](const auto &rows) {
+          return peak ? peak_pressure(rows, p) : pressure_norm(rows, p);
+        },
+        {"Exponent"}, peak ? p + 1. : p, amount);
+    };
+  };
+  return {
+    {"dissipation",
+     "work sum q . s of the friction forces q over the slips s of the load step, of one pair or "
+     "all pairs [force length]. It is a measure of wear.",
+     [](const Parameters &parameters) {
+       return contact_measure<dim>(parameters, total, {}, 1., friction_work);
+     }},
+    {"slip norm", "(int |s|^p dA)^(1/p) of the slip s of the load step [length length^(2/p)]",
+     power_mean(slip_over_area, false)},
+    {"peak slip",
+     "(int |s|^p |s| dA / int |s| dA)^(1/p) of the slip s of the load step [length], which is "
+     "below "
+     "the maximum",
+     power_mean(slip_over_area, true)},
+    {"shear norm",
+     "(int t^p dA)^(1/p) of the friction force per area t [force/length^2 length^(2/p)]",
+     power_mean(shear_force, false)},
+    {"peak shear",
+     "(int t^p t dA / int t dA)^(1/p) of the friction force per area t [force/length^2], which is "
+     "below the maximum",
+     power_mean(shear_force, true)},
+    {"stick area",
+     "area int (1 + e^2) r^2 / (r^2 + e^2 m^2) dA with the reserve r of the friction force per "
+     "area "
+     "to its limit, its mean m weighted by r, and e = 'Smoothing' [length^2]",
+     [](const Parameters &parameters) {
+       const double e = parameters.smoothing;
+       return contact_measure<dim>(
+         parameters, [e](const auto &rows) { return contact_area(rows, e); }, {"Smoothing"}, 1.,
+         shear_reserve);
+     }},
+    {"friction force",
+     "component of the sum of the friction forces on the slave side of one pair or all pairs "
+     "[force]",
+     friction_force<dim>},
+    {"friction moment",
+     "moment of these forces about the axis 'Component' through 'Point' in space [force length]",
+     friction_moment<dim>}};
+}
 } // namespace
 
 template <int dim>
 const ChoiceTable<MakeResponse<dim>> &response_table()
 {
   static const auto table = []() {
-    auto       rows    = body_responses<dim>();
-    const auto contact = contact_responses<dim>();
+    auto       rows     = body_responses<dim>();
+    const auto contact  = contact_responses<dim>();
+    const auto friction = friction_responses<dim>();
     rows.insert(rows.end(), contact.begin(), contact.end());
+    rows.insert(rows.end(), friction.begin(), friction.end());
     return rows;
   }();
   return table;

@@ -39,6 +39,28 @@ std::vector<Partials<dim>> partials_of(const GradientProblem<dim> &problem,
   return partials;
 }
 
+namespace {
+/// Return dJ/d(slips) of the tangential rows in the units of the dual rows, one column per
+/// response.
+template <int dim>
+qp::MultiVector by_slips(const state::StateSolver<dim>    &solver,
+                         const state::ContactState<dim>   &state,
+                         const std::vector<Partials<dim>> &partials)
+{
+  const auto        &gluing     = solver.gluing(state.load_case);
+  const auto        &of_contact = gluing.contact_of_row();
+  const unsigned int n = gluing.n_contact_rows(), k = narrow<unsigned int>(partials.size());
+  qp::MultiVector    result(narrow<unsigned int>(of_contact.size()), k);
+  for (unsigned int j = 0; j < k; ++j)
+    for (unsigned int i = 0; !partials[j].slips.empty() && i < of_contact.size(); ++i)
+      if (of_contact[i] >= n && of_contact[i] < n + partials[j].slips.size())
+        // The row of B is divided by its scale.
+        result(i, j) =
+          partials[j].slips[of_contact[i] - n] * gluing.contact_scales()[of_contact[i]];
+  return result;
+}
+} // namespace
+
 template <int dim>
 KktVectors state_partials(const state::StateSolver<dim>    &solver,
                           const state::ContactState<dim>   &state,
@@ -60,6 +82,14 @@ KktVectors state_partials(const state::StateSolver<dim>    &solver,
         for (unsigned int i = 0; i < of_contact.size(); ++i)
           if (of_contact[i] < partials[j].forces.size())
             result.dual(i, j) = partials[j].forces[of_contact[i]] / scales[of_contact[i]];
+    }
+  if (std::any_of(partials.begin(), partials.end(),
+                  [](const auto &of) { return !of.slips.empty(); }))
+    {
+      const auto through_slips =
+        solver.feti(state).linearization().multiply_Bt(by_slips(solver, state, partials));
+      for (unsigned int s = 0; s < through_slips.size(); ++s)
+        result.primal[s].add(1., through_slips[s]);
     }
   return result;
 }
@@ -203,11 +233,13 @@ private:
           partials.emplace_back();
           partials.back().positions.resize(problem.solver.mesh().n_points());
         }
-    qp::MultiVector slips(feti.n_owned(), 0);
+    const auto      of_step = by_slips(problem.solver, problem.state, partials);
+    qp::MultiVector slips(feti.n_owned(), 0); // at the end of the step
     for (const unsigned int i : places)
       slips.append(of_slips[k].count(i) > 0 ? of_slips[k][i] : qp::MultiVector(feti.n_owned()));
     auto       right = state_partials(problem.solver, problem.state, partials);
     const auto B     = feti.linearization().multiply_Bt(slips);
+    slips.add(1., of_step);
     for (unsigned int s = 0; s < right.primal.size(); ++s)
       right.primal[s].add(1., B[s]);
     auto adjoint = TangentSystem(feti, strong_rows(problem.solver, problem.state).transpose(),
@@ -219,6 +251,8 @@ private:
         {
           auto eta = adjoint.dual.columns_from(column, 1);
           keep_tangents(feti, eta);
+          // The slip of this step is relative to the one before.
+          eta.add(-1., of_step.columns_from(column, 1));
           auto &sum = of_slips[*before].try_emplace(places[column], feti.n_owned()).first->second;
           sum.add(1., eta);
         }
@@ -344,9 +378,13 @@ Gradients<dim> direct_gradients(const LoadCases<dim>         &load_cases,
       slips[k].add(-1., rates);
       keep_tangents(feti, slips[k]);
       const auto [places, responses] = responses_of(measured, k);
-      const auto partials            = partials_of(problem, responses);
-      const auto through_state = products(state_partials(problem.solver, problem.state, partials),
-                                          derivatives, problem.solver.context().communicator());
+      const auto     partials        = partials_of(problem, responses);
+      const MPI_Comm comm            = problem.solver.context().communicator();
+      auto           through_state =
+        products(state_partials(problem.solver, problem.state, partials), derivatives, comm);
+      // The slip of this step is relative to the one before, and changes with B and g.
+      through_state.add(-1., qp::inner_products(by_slips(problem.solver, problem.state, partials),
+                                                data.dual, comm));
       for (unsigned int i = 0; i < places.size(); ++i)
         {
           auto &gradient = result.of_response[places[i]];

@@ -13,6 +13,11 @@ namespace snug::response {
 template <int dim>
 dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters);
 
+/// Return the axis x, y or z of a moment; in the plane it is z.
+/// @throws InputError for other names.
+template <int dim>
+dealii::Tensor<1, 3> moment_axis(const ResponseParameters &parameters);
+
 /// Return (body, boundary) of the face "body.boundary".
 /// @throws InputError if there is no such boundary.
 template <int dim>

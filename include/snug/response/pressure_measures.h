@@ -40,6 +40,9 @@ Measured pressure_norm(const PressureRows &rows, double p);
  */
 Measured peak_pressure(const PressureRows &rows, double p);
 
+/// Compute int q dA [force].
+Measured total(const PressureRows &rows);
+
 /// Compute int (q - m)^2 dA / int dA [pressure^2] with m = int q dA / int dA. The integrals
 /// extend over the whole side, including its open parts.
 Measured pressure_variance(const PressureRows &rows);

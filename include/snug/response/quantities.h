@@ -96,12 +96,46 @@ std::unique_ptr<Response<dim>> least_cell_size(const ResponseParameters &paramet
 template <int dim>
 std::unique_ptr<Response<dim>> contact_force(const ResponseParameters &parameters);
 
+/**
+ * Return the same of the friction forces alone, J = -sum_i q_i . e with the shears q_i
+ * (state::ContactPoint), or their moment on the slave side about an axis through a point in space,
+ * J = -sum_i e . ((x_i - p) x q_i) [force length].
+ */
+template <int dim>
+std::unique_ptr<Response<dim>> friction_force(const ResponseParameters &parameters);
+template <int dim>
+std::unique_ptr<Response<dim>> friction_moment(const ResponseParameters &parameters);
+
 using Measure = std::function<Measured(const PressureRows &)>;
 
+/// The amount of a contact that a measure takes as its force, with its derivatives by the normal
+/// force, the area, the shear and the slip of the contact.
+struct Amount
+{
+  double               value     = 0.;
+  double               by_normal = 0., by_area = 0.;
+  dealii::Tensor<1, 3> by_shear, by_slip;
+};
+
+using AmountOf = std::function<Amount(const state::ContactPoint &, const contact::RowFriction &)>;
+
+/// @name Amounts of a contact
+/// @{
+Amount normal_force(const state::ContactPoint &point, const contact::RowFriction &law);
+/// |shear|
+Amount shear_force(const state::ContactPoint &point, const contact::RowFriction &law);
+/// limit - |shear| of closed contacts: positive where they stick
+Amount shear_reserve(const state::ContactPoint &point, const contact::RowFriction &law);
+/// |slip| times area, so that the pressure of the measure is |slip|
+Amount slip_over_area(const state::ContactPoint &point, const contact::RowFriction &law);
+/// shear . slip
+Amount friction_work(const state::ContactPoint &point, const contact::RowFriction &law);
+/// @}
+
 /**
- * Return a response that is a function of the contact forces and tributary areas of one pair,
- * or of all pairs; see pressure_measures.h for the functions. Rows that cannot carry a force,
- * or have no area, are left out.
+ * Return a response that is a function of the contact forces, or of other amounts, and tributary
+ * areas of one pair, or of all pairs; see pressure_measures.h for the functions. Rows that cannot
+ * carry a force, or have no area, are left out.
  * @param entries  entries that the measure reads, besides the pair.
  * @param power    maximum power of the pressure under an integral of the measure.
  */
@@ -109,7 +143,8 @@ template <int dim>
 std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &parameters,
                                                const Measure                  &measure,
                                                const std::vector<std::string> &entries = {},
-                                               double                          power   = 1.);
+                                               double                          power   = 1.,
+                                               const AmountOf &amount = normal_force);
 /// @}
 } // namespace snug::response
 

@@ -24,6 +24,9 @@ struct Partials
   /// in ContactPoint, never lambda_i. Friction forces follow the normals without a spin, see
   /// Contact::energy_gradient().
   std::vector<double> forces;
+  /// dJ/d(slip) of the load step at fixed u, forces and positions, per tangential row and equal on
+  /// all ranks. u does not contain this part.
+  std::vector<double> slips = {};
   /// dJ/dX at fixed u and forces: this rank's share at the local nodes, including hanging
   /// nodes. The sum over ranks is the derivative.
   Field positions;

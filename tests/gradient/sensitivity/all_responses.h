@@ -19,15 +19,18 @@ std::map<std::string, response::ResponseParameters> all_responses()
       result[row.name].exponent  = 5.;
       result[row.name].smoothing = 0.5;
     }
-  const auto axis            = dim == 2 ? response::Component::y : response::Component::z;
-  result["force"]            = result.at("contact force");
-  result["force"].component  = response::Component::x;
-  auto &displacement         = result.at("displacement");
-  result["normal on a face"] = displacement;
-  result["axial on a face"]  = displacement;
-  displacement.body          = "foundation";
-  displacement.component     = axis;
-  displacement.point         = {0.37, 0.72};
+  result["friction force"].component  = response::Component::x;
+  result["friction moment"].component = response::Component::z;
+  result["friction moment"].point     = std::vector<double>(dim, 0.3);
+  const auto axis                     = dim == 2 ? response::Component::y : response::Component::z;
+  result["force"]                     = result.at("contact force");
+  result["force"].component           = response::Component::x;
+  auto &displacement                  = result.at("displacement");
+  result["normal on a face"]          = displacement;
+  result["axial on a face"]           = displacement;
+  displacement.body                   = "foundation";
+  displacement.component              = axis;
+  displacement.point                  = {0.37, 0.72};
   if (dim == 3)
     displacement.point = {0.37, 0.44, 0.72};
   result["normal on a face"].face     = "foundation.right";

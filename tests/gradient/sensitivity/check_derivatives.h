@@ -72,7 +72,7 @@ all_gradients(GradientScene<dim> &scene, const state::ContactState<dim> &state)
 }
 
 template <int dim>
-void check_derivatives(GradientScene<dim> &scene)
+void check_derivatives(GradientScene<dim> &scene, double step = difference_step)
 {
   const auto state = scene.solve(scene.design);
   ASSERT_EQ(state.weak_contacts, 0u);
@@ -90,7 +90,7 @@ void check_derivatives(GradientScene<dim> &scene)
       << name;
   for (const auto &direction : test_directions(scene.basis->n_variables()))
     {
-      const auto exact = scene.differences(direction, difference_step);
+      const auto exact = scene.differences(direction, step);
       EXPECT_LT(field_error(scene.problem, nodal(scene.problem, derivatives, direction),
                             exact.displacement),
                 direct_tolerance);

@@ -71,6 +71,7 @@ struct TestScene
   bool                       punch_slides = false; ///< nothing holds it horizontally
   /// [case][body]; empty: one case with the loads of the bodies
   std::vector<std::vector<typename TestBody<dim>::Loads>> cases;
+  bool are_steps = false; ///< each case continues the slips of the one before
 };
 
 /// Height of the design at box fractions (s, t) of the top.
@@ -259,6 +260,8 @@ public:
     for (unsigned int c = 0; c < n_cases; ++c)
       {
         model.load_cases.push_back({"case " + std::to_string(c), {}, {}});
+        if (scene.are_steps && c > 0)
+          model.load_cases.back().after = c - 1;
         for (unsigned int b = 0; b < scene.bodies.size(); ++b)
           model.load_cases.back().bodies.push_back(
             make_loads(scene.bodies[b],
