@@ -139,7 +139,7 @@ std::string usage()
     snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
     snug --validate FILE.prm | --print-parameters | --help | --version
 
-Shape optimization of elastic bodies in frictionless contact.
+Shape optimization of elastic bodies in contact, with or without friction.
     mpirun -np 4 snug FILE.prm    run on 4 MPI ranks
 
     --set "Subsection/Entry=value"

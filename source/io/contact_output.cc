@@ -36,6 +36,8 @@ state::ContactPoint shared_point(const Shares &shares, const Point &point)
       const state::ContactPoint &other = point(index);
       result.pressure += share * other.pressure;
       result.gap += share * other.gap;
+      result.traction += share * other.traction;
+      result.slip += share * other.slip;
       result.active = result.active && other.active;
       result.weak   = result.weak && other.weak;
     }
@@ -94,19 +96,16 @@ std::string faces_text(const Sources<dim>             &sources,
   for (unsigned int p = 0; p < pairs.size(); ++p)
     nodal.push_back(nodal_points<dim>(sources, p, state.contact));
   // The values below are in the order of these quantities.
-  VtuGrid<dim - 1, dim>                                               grid({{"pressure", 1},
-                                                                            {"gap", 1},
-                                                                            {"force", 1},
-                                                                            {"area", 1},
-                                                                            {"active", 1},
-                                                                            {"weak", 1},
-                                                                            {"candidate", 1},
-                                                                            {"slave", 1},
-                                                                            {"pair", 1},
-                                                                            {"body", 1},
-                                                                            {"displacement", dim},
-                                                                            {"design_displacement", dim}},
-                                                                           {});
+  std::vector<Quantity> quantities = {{"pressure", 1},       {"gap", 1},
+                                      {"force", 1},          {"area", 1},
+                                      {"active", 1},         {"weak", 1},
+                                      {"candidate", 1},      {"slave", 1},
+                                      {"pair", 1},           {"body", 1},
+                                      {"displacement", dim}, {"design_displacement", dim}};
+  const bool            friction   = state.has_friction();
+  if (friction)
+    quantities.insert(quantities.end(), {{"traction", dim}, {"slip", dim}, {"friction", 1}});
+  VtuGrid<dim - 1, dim>                                               grid(quantities, {});
   std::map<std::tuple<unsigned int, unsigned int, int>, unsigned int> number; // node, pairs
   for (const auto &face : sources.surface.faces())
     {
@@ -139,6 +138,12 @@ std::string faces_text(const Sources<dim>             &sources,
                 values.push_back(fields.displacement[node][c]);
               for (unsigned int c = 0; c < dim; ++c)
                 values.push_back(fields.positions[node][c] - fields.reference[node][c]);
+              for (unsigned int c = 0; friction && c < dim; ++c)
+                values.push_back(point.traction[c]);
+              for (unsigned int c = 0; friction && c < dim; ++c)
+                values.push_back(point.slip[c]);
+              if (friction)
+                values.push_back(double(point.friction));
               place->second = grid.add_point(fields.positions[node], values);
             }
           corners.push_back(place->second);
@@ -155,8 +160,16 @@ std::string rows_text(const Sources<dim>             &sources,
                       const state::ContactState<dim> &state,
                       const SurfaceFields<dim>       &fields)
 {
-  std::string text =
-    std::string("pair,x,y,") + (dim == 3 ? "z," : "") + "force,pressure,gap,area,active,weak\n";
+  const std::string axes     = dim == 3 ? "xyz" : "xy";
+  const bool        friction = state.has_friction();
+  std::string       text     = "pair,";
+  for (const char axis : axes)
+    text += std::string(1, axis) + ',';
+  text += "force,pressure,gap,area,active,weak";
+  for (const std::string name : {"traction", "slip"})
+    for (unsigned int c = 0; friction && c < dim; ++c)
+      text += "," + name + "_" + axes[c];
+  text += friction ? ",friction\n" : "\n";
   for (unsigned int i = 0; i < state.contact.size(); ++i)
     {
       const auto &row   = sources.places[i];
@@ -166,7 +179,11 @@ std::string rows_text(const Sources<dim>             &sources,
         text += ',' + exact(fields.positions[row.slave][c]);
       for (const double x : {point.force, point.pressure, point.gap, point.area})
         text += ',' + exact(x);
-      text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1\n" : ",0\n");
+      text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1" : ",0");
+      for (const auto &vector : {point.traction, point.slip})
+        for (unsigned int c = 0; friction && c < dim; ++c)
+          text += ',' + exact(vector[c]);
+      text += friction ? "," + to_text(point.friction) + '\n' : "\n";
     }
   return text;
 }

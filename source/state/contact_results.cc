@@ -129,10 +129,13 @@ void describe_friction(const StateSolver<dim>     &solver,
     }
   for (const auto &slip : contacts_that_slip(solver, state))
     state.contact[slip].friction = FrictionStatus::slip;
-  for (const ContactPoint &point : state.contact)
+  for (ContactPoint &point : state.contact)
     {
       if (point.friction == FrictionStatus::none)
         continue;
+      // The area may be round-off, like that of the pressure.
+      if (point.force != 0.)
+        point.traction = -point.pressure / point.force * point.shear;
       state.dissipation += point.shear * point.slip;
       state.slipping_contacts += point.friction == FrictionStatus::slip;
       if (point.strong)

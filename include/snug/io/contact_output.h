@@ -30,6 +30,14 @@ namespace snug::io {
  * | displacement        | displacement                     | length          |
  * | design_displacement | design minus reference           | length          |
  *
+ * With friction also:
+ *
+ * | field               | meaning                                          | units           |
+ * |---------------------|--------------------------------------------------|-----------------|
+ * | traction            | friction force on the slave side / area          | force/length^2* |
+ * | slip                | of the slave side over the master, in this step  | length          |
+ * | friction            | 0 none, 1 open, 2 stick, 3 slip                  |                 |
+ *
  * (*) length in 2D, where forces are per unit thickness.
  *
  * Pressure, gap and flags are given at slave nodes. Hanging nodes interpolate pressure and gap,

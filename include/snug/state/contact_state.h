@@ -71,6 +71,8 @@ struct ContactPoint
   /// displacement of the slave side relative to the master, in this load step [length]
   dealii::Tensor<1, 3> slip;
   double               limit = 0.; ///< maximum of |shear| [force]
+  /// -shear / area [force/length^(dim-1)]; zero without an area
+  dealii::Tensor<1, 3> traction;
   /// @}
 };
 
