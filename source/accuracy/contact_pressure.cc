@@ -122,7 +122,8 @@ double ContactPressure<dim>::on_slave_side(const unsigned int            pair,
 template <int dim>
 double ContactPressure<dim>::value(const Face                   &face,
                                    const std::vector<double>    &at_nodes,
-                                   const dealii::Tensor<1, dim> &x) const
+                                   const dealii::Tensor<1, dim> &x,
+                                   const double                  on_master) const
 {
   const Boundary boundary(face.body, face.boundary);
   double         sum = 0.;
@@ -140,7 +141,7 @@ double ContactPressure<dim>::value(const Face                   &face,
     }
   if (const auto masters = master_of.find(boundary); masters != master_of.end())
     for (const unsigned int pair : masters->second)
-      sum += pairs[pair]->at(solver.motion(load_case, face.body).point(x));
+      sum += on_master * pairs[pair]->at(solver.motion(load_case, face.body).point(x));
   return sum;
 }
 

@@ -78,6 +78,7 @@ public:
     auto solution = sensitivity::adjoint_states(solver, state, partials, solves, parameters);
     for (const auto &point : state.contact)
       areas.push_back(point.area);
+    rows             = solver.contact(load_case).rows(solver.surface().gather(state.positions));
     const auto &feti = solver.feti(state);
     dual             = solution.dual;
     norms            = state::energy_norms(feti, solution.primal);
@@ -94,13 +95,16 @@ public:
     z.displacement =
       sum(mesh::owners_values(solver.mesh(), state::nodal_values(solver, continuous, column[j])),
           -derivative.stiffness, u.displacement);
-    const auto &gluing = solver.gluing(load_case);
-    const auto  forces = gluing.gather_contact(dual.column(column[j]));
-    for (unsigned int i = 0; i < gluing.n_contact_rows(); ++i)
-      {
-        const double scale = gluing.contact_scales()[i];
-        z.pressures.push_back(scale > 0. ? pressure(forces[i] / scale, areas[i]) : 0.);
-      }
+    const auto &gluing  = solver.gluing(load_case);
+    const auto &contact = solver.contact(load_case);
+    auto        forces  = gluing.gather_contact(dual.column(column[j]));
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      forces[i] *= gluing.contact_scales()[i] > 0. ? 1. / gluing.contact_scales()[i] : 0.;
+    for (unsigned int i = 0; i < contact.n_rows(); ++i)
+      z.pressures.push_back(pressure(forces[i], areas[i]));
+    if (contact.has_friction())
+      for (const auto &force : contact.forces(rows, forces).tangential)
+        z.shears.push_back(-pressure(1., areas[z.shears.size()]) * force);
     z.loads = derivative.load;
     z.more  = &derivative;
     return z;
@@ -119,6 +123,7 @@ private:
   const unsigned int             load_case;
   std::vector<unsigned int>      column; ///< column of each response that needs one
   std::vector<double>            areas;  ///< areas of the contact rows
+  std::vector<contact::Row<dim>> rows;
   qp::MultiVector                dual;
   feti::PrimalVectors            torn, continuous;
   std::vector<double>            norms; ///< energy norms of the columns
@@ -132,7 +137,14 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
   LoadedDisplacement<dim> u;
   u.displacement = mesh::owners_values(solver.mesh(), state.displacement);
   for (const auto &point : state.contact)
-    u.pressures.push_back(point.pressure);
+    {
+      u.pressures.push_back(point.pressure);
+      if (!solver.has_friction())
+        continue;
+      u.shears.emplace_back();
+      for (int d = 0; d < dim; ++d)
+        u.shears.back()[d] = point.traction[d];
+    }
   return u;
 }
 
@@ -140,7 +152,7 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
 template <int dim>
 LoadedDisplacement<dim> unloaded(const mesh::Field<dim> &displacement, const std::size_t n_rows)
 {
-  return {displacement, std::vector<double>(n_rows, 0.), 0.};
+  return {displacement, std::vector<double>(n_rows, 0.), {}, 0.};
 }
 
 /// Estimates by a given state and given adjoints, and the ratios of the jumps that the solver left

@@ -184,10 +184,18 @@ void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) con
 }
 
 template <int dim>
-void LocalErrors<dim>::add_contact(const std::vector<double> &pressures,
-                                   std::vector<Residual>     &r) const
+void LocalErrors<dim>::add_contact(const Loaded &of, std::vector<Residual> &r) const
 {
-  const ContactPressure<dim> contact(solver, state, pressures);
+  const ContactPressure<dim> contact(solver, state, of.pressures);
+  // components in space of the friction traction on the slave side
+  std::vector<std::unique_ptr<ContactPressure<dim>>> shears;
+  for (int d = 0; d < dim && !of.shears.empty(); ++d)
+    {
+      std::vector<double> component;
+      for (const auto &shear : of.shears)
+        component.push_back(shear[d]);
+      shears.push_back(std::make_unique<ContactPressure<dim>>(solver, state, component));
+    }
   for (const auto &face : mesh.boundary_faces())
     if (contact.is_on(face))
       {
@@ -196,10 +204,19 @@ void LocalErrors<dim>::add_contact(const std::vector<double> &pressures,
         for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
           {
             const auto  &shape = on_face.shapes[q];
-            const double p     = contact.value(face, shape.value, elasticity::value(shape, X));
-            if (p != 0.)
-              elasticity::add_force<dim>(on_face.functions[q],
-                                         -p * area_vector(shape, face.number, X), r[face.cell]);
+            const auto   x     = elasticity::value(shape, X);
+            const auto   area  = area_vector(shape, face.number, X);
+            const double p     = contact.value(face, shape.value, x);
+            auto         force = -p * area;
+            if (!shears.empty())
+              {
+                dealii::Tensor<1, dim> shear;
+                for (int d = 0; d < dim; ++d)
+                  shear[d] = shears[d]->value(face, shape.value, x, -1.);
+                force += area.norm() * solver.motion(state.load_case, face.body).vector_back(shear);
+              }
+            if (force.norm_square() != 0.)
+              elasticity::add_force<dim>(on_face.functions[q], force, r[face.cell]);
           }
       }
 }
@@ -213,7 +230,7 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
   add_interior_faces(of, r);
   add_loads(of, r);
   if (solver.contact(state.load_case).n_rows() > 0)
-    add_contact(of.pressures, r);
+    add_contact(of, r);
   return r;
 }
 

@@ -1,11 +1,15 @@
 #include <snug/feti/feti_free_set.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <cmath>
 
 namespace snug::feti {
 Linearization::FetiFreeSet::FetiFreeSet(const Linearization &the_feti, const qp::FreeRows &the_free)
   : feti(the_feti)
   , free(the_free)
+  , slides(
+      dealii::Utilities::MPI::logical_or(!free.slips().empty(), the_feti.context().communicator()))
   , equations{the_free.transpose(), nullptr}
   , multipliers{the_free, nullptr}
 {}

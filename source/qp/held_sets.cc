@@ -132,7 +132,7 @@ bool HeldSets::change(const FreeSet     &free_set,
           std::ostringstream text;
           text.precision(2);
           text << "slides: " << problem.describe_motion(motion) << "; friction forces lack "
-               << 100. * std::sqrt(amount) / size << " % of the load";
+               << 100. * std::sqrt(amount) / (is_loaded ? load : size) << " % of the load along it";
           throw SolveError(text.str());
         }
       return true;

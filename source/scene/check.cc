@@ -90,6 +90,16 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
                     objective + "'");
 }
 
+/// Check what does not know friction.
+void check_friction(const Scene &scene, const Origins &origins)
+{
+  if (!has_friction(scene))
+    return;
+  SectionCheck("Solver", origins, scene.dimension)
+    .require(scene.solver.method == "active set", "Method", scene.solver.method,
+             "must be 'active set' with friction");
+}
+
 /// Check the targets. A search needs the error of its objective, and variables that are the same
 /// on all meshes.
 void check_targets(const Scene &scene, const SectionCheck &section)
@@ -151,6 +161,7 @@ void check(const Scene &scene, const Origins &origins)
   check_contact(scene, origins);
   check_shapes(scene, origins);
   check_responses(scene, origins);
+  check_friction(scene, origins);
   check_gradient(scene, section("Gradient"));
   scene.accuracy.check(section("Accuracy"));
   scene.output.check(section("Output"));

@@ -13,7 +13,10 @@ struct LoadedDisplacement
   mesh::Field<dim> displacement; ///< at all local nodes
   /// pressures of the contact rows [force / length^2]
   std::vector<double> pressures;
-  double              loads = 1.; ///< factor of the loads of the load case
+  /// friction tractions of the contact rows on the slave sides, in space [force / length^2]; empty:
+  /// none
+  std::vector<dealii::Tensor<1, dim>> shears = {};
+  double                              loads  = 1.; ///< factor of the loads of the load case
   /// further traction and stress that act; null: none
   const response::FieldDerivative<dim> *more = nullptr;
 };

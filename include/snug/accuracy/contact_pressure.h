@@ -40,9 +40,12 @@ public:
   bool is_on(const Face &face) const;
 
   /// Return the value at the point @p x of a face. @p shape are the shape functions of the nodes
-  /// of its cell at the point.
-  double
-  value(const Face &face, const std::vector<double> &shape, const dealii::Tensor<1, dim> &x) const;
+  /// of its cell at the point. Values on the master side have the factor @p on_master, which is -1
+  /// for components of tractions on the slave side.
+  double value(const Face                   &face,
+               const std::vector<double>    &shape,
+               const dealii::Tensor<1, dim> &x,
+               double                        on_master = 1.) const;
 
   /// Return the value of a pair at the point of its slave side closest to @p x in space; 0 beyond
   /// the end of the slave side.

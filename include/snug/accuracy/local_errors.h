@@ -70,7 +70,7 @@ private:
   Nodes body_forces(unsigned int cell, const Loaded &of) const;
   void  add_interior_faces(const Loaded &of, std::vector<Residual> &r) const;
   void  add_loads(const Loaded &of, std::vector<Residual> &r) const;
-  void  add_contact(const std::vector<double> &pressures, std::vector<Residual> &r) const;
+  void  add_contact(const Loaded &of, std::vector<Residual> &r) const;
   std::vector<Residual> on_faces(const Loaded &of) const;
 };
 } // namespace snug::accuracy

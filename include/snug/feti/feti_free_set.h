@@ -35,10 +35,11 @@ private:
   void subtract_rigid_part(const Side &side, qp::MultiVector &x, qp::MultiVector &alpha) const;
   void scale_slips(qp::MultiVector &z) const;
   /// Return the side of the multipliers. Without slips both sides have the same coarse problem.
-  const Side &of_multipliers() const { return free.slips().empty() ? equations : multipliers; }
+  const Side &of_multipliers() const { return slides ? multipliers : equations; }
 
   const Linearization                     &feti;
   qp::FreeRows                             free;
+  bool                                     slides; ///< whether a contact of any rank slips
   Side                                     equations, multipliers;
   mutable std::unique_ptr<RowGram::Factor> gram;
 };
