@@ -16,6 +16,9 @@ namespace {
 /// and 0.7 take 27, 24, 25 and 31 F-mults.
 const double forcing = 0.1;
 
+/// The same where the sets have not changed.
+const double settled_forcing = 0.03;
+
 /// The same after several changes of sets for free motions.
 const double exact_forcing = 1e-3;
 
@@ -268,7 +271,7 @@ FreeRows FrictionRun::next_rows() const
 /// Continue on the same sets, where directions of slips in space may change.
 void FrictionRun::keep_rows()
 {
-  inner_tolerance = std::min(0.1 * inner_tolerance, forcing * kkt.relative);
+  inner_tolerance = std::min(0.1 * inner_tolerance, settled_forcing * kkt.relative);
   if (last_kkt > 0. && kkt.relative > 0.5 * last_kkt && ++stalls > patience_on_sets)
     throw not_converged("friction", kkt.relative, parameters.relative_tolerance, f_mults(), false);
   last_kkt = kkt.relative;

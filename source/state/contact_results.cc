@@ -207,7 +207,7 @@ std::vector<std::string> free_bodies(const StateSolver<dim> &solver, const Conta
   const auto &feti       = solver.feti(state);
   const auto &of_contact = solver.gluing(state.load_case).contact_of_row();
   // Contacts that stick hold the bodies along the surface as well.
-  qp::RowSet rows = state.dual.active;
+  qp::RowSet rows = state.dual.determined_rows();
   for (unsigned int i = 0; i < rows.size(); ++i)
     if (feti.bounded()[i])
       rows[i] = state.contact[of_contact[i]].strong;

@@ -35,7 +35,7 @@ void StateSolver<dim>::solve_to_certificate(const qp::WarmStart &start,
       outer += state.dual.outer_iterations;
       state.u =
         dual.linearization().recover(dual.loads(), state.dual.lambda, state.dual.amplitudes);
-      dual.add_minimal_rigid_motion(state.dual.active, state.u, state.dual.amplitudes);
+      dual.add_minimal_rigid_motion(state.dual.determined_rows(), state.u, state.dual.amplitudes);
       state.certificate = certify(dual, state.dual.lambda, state.u);
       if (state.certificate.worst() <= wanted)
         {

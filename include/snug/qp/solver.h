@@ -57,6 +57,17 @@ struct DualSolution
   std::string       method; ///< the solver that finished
   /// Directions of the linear problem on the active set, if the solver used any.
   DirectionBasis directions;
+
+  /// Return the rows whose motions are determined: active, and the tangential rows of slips, whose
+  /// friction forces depend on them.
+  RowSet determined_rows() const
+  {
+    RowSet rows = active;
+    for (const Slip &slip : slips)
+      for (unsigned int t = 0; t < slip.cone.n_tangents; ++t)
+        rows[slip.cone.tangents[t]] = 1;
+    return rows;
+  }
 };
 
 /// A solver of the dual QP.
