@@ -46,11 +46,13 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
   : problem(problem), results(results), states(states)
 {
   choose_method();
-  bool one_sided = sensitivity::needs_solve(*problem.objective, problem.solver->has_friction()) &&
+  const bool with_friction = problem.solver->has_friction();
+  bool       one_sided     = sensitivity::needs_solve(*problem.objective, with_friction) &&
                    std::any_of(states.begin(), states.end(),
                                [](const auto &state) { return state.weak_contacts > 0; });
   if (one_sided)
     results.warn_of_weak_contacts(states);
+  one_sided = one_sided && !with_friction; // not known with friction
   for (const Method &method : methods())
     {
       // before differences, which leave the solver at another design

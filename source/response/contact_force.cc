@@ -5,8 +5,8 @@
 
 namespace snug::response {
 namespace {
-/// Return virtual motions of the nodes of the slave side of a pair, a function of their positions in
-/// space, in the frames of the bodies. Other nodes are at rest.
+/// Return virtual motions of the nodes of the slave side of a pair, a function of their positions
+/// in space, in the frames of the bodies. Other nodes are at rest.
 template <int dim>
 typename mesh::Surface<dim>::Field
 motion_of_slave(const state::StateSolver<dim>            &solver,

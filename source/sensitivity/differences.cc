@@ -1,3 +1,4 @@
+#include <snug/sensitivity/load_steps.h>
 #include <snug/sensitivity/methods.h>
 
 namespace snug::sensitivity {

@@ -1,4 +1,5 @@
 #include <snug/sensitivity/gradient.h>
+#include <snug/sensitivity/load_steps.h>
 #include <snug/sensitivity/methods.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -56,14 +57,7 @@ std::vector<MethodChoice> methods(const LoadCases<dim>         &load_cases,
   std::vector<MethodChoice> choices(measured.size());
   for (unsigned int c = 0; c < load_cases.size(); ++c)
     {
-      Responses<dim>            of_case;
-      std::vector<unsigned int> places;
-      for (unsigned int i = 0; i < measured.size(); ++i)
-        if (measured[i].load_case == c)
-          {
-            of_case.push_back(measured[i].response);
-            places.push_back(i);
-          }
+      const auto [places, of_case] = responses_of(measured, c);
       const auto cheapest =
         cheapest_methods(of_case, problem.basis.n_variables(), problem.solver.has_friction());
       for (unsigned int i = 0; i < places.size(); ++i)

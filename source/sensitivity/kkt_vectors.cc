@@ -13,4 +13,10 @@ qp::MultiVector products(const KktVectors &x, const KktVectors &y, MPI_Comm comm
                 comm);
   return sum;
 }
+
+void add_row(const qp::MultiVector &products, unsigned int i, std::vector<double> &values)
+{
+  for (unsigned int j = 0; j < values.size(); ++j)
+    values[j] += products(i, j);
+}
 } // namespace snug::sensitivity

@@ -17,6 +17,9 @@ struct KktVectors
 
 /// Return x'y summed over ranks (x columns x y columns). Collective.
 qp::MultiVector products(const KktVectors &x, const KktVectors &y, MPI_Comm comm);
+
+/// Add row @p i of @p products to @p values.
+void add_row(const qp::MultiVector &products, unsigned int i, std::vector<double> &values);
 } // namespace snug::sensitivity
 
 #endif

@@ -86,15 +86,6 @@ template <int dim>
 Gradients<dim> difference_gradients(const LoadCases<dim>         &load_cases,
                                     const MeasuredResponses<dim> &measured);
 /// @}
-
-/// Return the place among @p load_cases of the load step that load case @p k continues.
-template <int dim>
-std::optional<unsigned int> step_before(const LoadCases<dim> &load_cases, unsigned int k);
-
-/// Return whether responses need each of @p load_cases: their own, and the load steps before them.
-template <int dim>
-std::vector<bool> needed_cases(const LoadCases<dim>         &load_cases,
-                               const MeasuredResponses<dim> &measured);
 } // namespace snug::sensitivity
 
 #endif

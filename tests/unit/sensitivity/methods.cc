@@ -44,18 +44,17 @@ protected:
                                       const std::optional<Method>     method)
   {
     std::vector<std::unique_ptr<response::Response<2>>> made;
-    sensitivity::Responses<2>                           responses;
+    sensitivity::MeasuredResponses<2>                   responses;
     for (const auto &name : names)
       {
         response::ResponseParameters of_name;
         of_name.quantity = name;
         made.push_back(response::make_response<2>(of_name));
-        responses.push_back(made.back().get());
+        responses.push_back({made.back().get(), 0});
       }
     parameters.method = method;
-    return sensitivity::gradients<2>({problem.solver, *basis, state, problem.scene.design, widths,
-                                      parameters},
-                                     responses);
+    return sensitivity::gradients<2>(
+      {{problem.solver, *basis, state, problem.scene.design, widths, parameters}}, responses);
   }
 
   sensitivity::Gradient<2> gradient(const std::string &response, const std::optional<Method> method)

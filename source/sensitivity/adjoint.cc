@@ -1,0 +1,157 @@
+#include <snug/base/narrow.h>
+#include <snug/sensitivity/load_steps.h>
+#include <snug/sensitivity/methods.h>
+#include <snug/sensitivity/residual_gradient.h>
+#include <snug/sensitivity/tangent_system.h>
+
+#include <algorithm>
+#include <map>
+
+namespace snug::sensitivity {
+using response::Partials;
+
+template <int dim>
+KktVectors adjoint_states(const state::StateSolver<dim>    &solver,
+                          const state::ContactState<dim>   &state,
+                          const std::vector<Partials<dim>> &partials,
+                          const Solves                      solves,
+                          const qp::SolverParameters       &parameters)
+{
+  return TangentSystem(solver.feti(state), strong_rows(solver, state).transpose(), parameters,
+                       solves, state.dual.directions)
+    .solve(state_partials(solver, state, partials));
+}
+
+namespace {
+/// The adjoint method at one load case after the other, from the last to the first.
+template <int dim>
+class AdjointSweep
+{
+public:
+  AdjointSweep(const LoadCases<dim> &load_cases, const MeasuredResponses<dim> &measured)
+    : load_cases(load_cases), measured(measured), of_slips(load_cases.size())
+  {
+    result.of_response.resize(measured.size());
+    for (auto &gradient : result.of_response)
+      gradient.method = Method::adjoint;
+    fields.resize(measured.size());
+  }
+
+  Gradients<dim> run()
+  {
+    const auto needed = needed_cases(load_cases, measured);
+    for (unsigned int k = narrow<unsigned int>(load_cases.size()); k-- > 0;)
+      if (needed[k])
+        add(k);
+    for (unsigned int i = 0; i < measured.size(); ++i)
+      {
+        const auto &basis    = load_cases.front().basis;
+        auto       &gradient = result.of_response[i];
+        auto        values   = basis.transpose(fields[i]);
+        for (unsigned int j = 0; j < gradient.values.size(); ++j)
+          values[j] += gradient.values[j];
+        gradient.values = values;
+        if (load_cases.front().parameters.derivatives == Derivatives::exact)
+          gradient.shape = fields[i];
+      }
+    return std::move(result);
+  }
+
+private:
+  const LoadCases<dim>         &load_cases;
+  const MeasuredResponses<dim> &measured;
+  Gradients<dim>                result;
+  std::vector<mesh::Field<dim>> fields; ///< dJ/dX
+  /// dJ/d(slips) at the end of each load case, by response, as far as later steps depend on them
+  std::vector<std::map<unsigned int, qp::MultiVector>> of_slips;
+
+  void add(const unsigned int k)
+  {
+    const auto &problem = load_cases[k];
+    problem.solver.restore(problem.state);
+    const auto &feti         = problem.solver.feti(problem.state);
+    auto [places, responses] = responses_of(measured, k);
+    auto partials            = partials_of(problem, responses);
+    // Responses of later load steps depend on this state through its slips.
+    for (const auto &[i, slips] : of_slips[k])
+      if (std::find(places.begin(), places.end(), i) == places.end())
+        {
+          places.push_back(i);
+          partials.emplace_back();
+          partials.back().positions.resize(problem.solver.mesh().n_points());
+        }
+    const auto      of_step = slip_partials(problem.solver, problem.state, partials);
+    qp::MultiVector slips(feti.n_owned(), 0); // at the end of the step
+    for (const unsigned int i : places)
+      slips.append(of_slips[k].count(i) > 0 ? of_slips[k][i] : qp::MultiVector(feti.n_owned()));
+    auto       right = state_partials(problem.solver, problem.state, partials);
+    const auto B     = feti.linearization().multiply_Bt(slips);
+    slips.add(1., of_step);
+    for (unsigned int s = 0; s < right.primal.size(); ++s)
+      right.primal[s].add(1., B[s]);
+    auto adjoint = TangentSystem(feti, strong_rows(problem.solver, problem.state).transpose(),
+                                 problem.solver.model().solver, problem.parameters.solves,
+                                 problem.state.dual.directions)
+                     .solve(right);
+    if (const auto before = step_before(load_cases, k))
+      for (unsigned int column = 0; column < places.size(); ++column)
+        {
+          auto eta = adjoint.dual.columns_from(column, 1);
+          keep_tangents(feti, eta);
+          // The slip of this step is relative to the one before.
+          eta.add(-1., of_step.columns_from(column, 1));
+          auto &sum = of_slips[*before].try_emplace(places[column], feti.n_owned()).first->second;
+          sum.add(1., eta);
+        }
+    // eta'(g' - B'u) of this step, and slips'(B'u - g') of the next steps
+    adjoint.dual.add(-1., slips);
+    add_data(problem, adjoint, places, partials);
+    of_slips[k].clear();
+  }
+
+  void add_data(const GradientProblem<dim>       &problem,
+                const KktVectors                 &adjoint,
+                const std::vector<unsigned int>  &places,
+                const std::vector<Partials<dim>> &partials)
+  {
+    const bool      exact = problem.parameters.derivatives == Derivatives::exact;
+    qp::MultiVector through_state;
+    if (!exact)
+      through_state =
+        products(adjoint, residual_derivatives(problem), problem.solver.context().communicator());
+    for (unsigned int column = 0; column < places.size(); ++column)
+      {
+        const unsigned int i     = places[column];
+        auto               field = partials[column].positions;
+        if (exact)
+          add_residual_gradient(problem.solver, problem.state, adjoint, column, field);
+        else
+          {
+            result.of_response[i].values.resize(problem.basis.n_variables(), 0.);
+            add_row(through_state, column, result.of_response[i].values);
+          }
+        fields[i].resize(field.size());
+        for (unsigned int point = 0; point < field.size(); ++point)
+          fields[i][point] += field[point];
+      }
+  }
+};
+} // namespace
+
+template <int dim>
+Gradients<dim> adjoint_gradients(const LoadCases<dim>         &load_cases,
+                                 const MeasuredResponses<dim> &measured)
+{
+  return AdjointSweep<dim>(load_cases, measured).run();
+}
+
+#define SNUG_INSTANTIATE(dim)                                                        \
+  template KktVectors     adjoint_states(const state::StateSolver<dim> &,            \
+                                         const state::ContactState<dim> &,           \
+                                         const std::vector<Partials<dim>> &, Solves, \
+                                         const qp::SolverParameters &);              \
+  template Gradients<dim> adjoint_gradients(const LoadCases<dim> &, const MeasuredResponses<dim> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::sensitivity
