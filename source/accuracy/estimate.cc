@@ -306,16 +306,15 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
   for (unsigned int j = 0; j < responses.size(); ++j)
     {
       const bool   is_geometry = !responses[j]->needs_solution();
-      const bool   stationary  = !is_geometry && place[j] == 0;
-      const double sign        = is_geometry ? 0. : stationary ? -1. : 1.;
+      const double sign        = is_geometry ? 0. : place[j] == 0 ? -1. : 1.;
       const double s           = derivatives[j].stiffness;
       const auto  &z           = all[place[j]];
       const auto   cells       = in_cells(products, layer, place[j], sign, s / 2.);
-      const auto   contact     = gaps.integral(z.pressures);
       if (place[j] > 0)
         result.adjoint_excess =
           std::max(result.adjoint_excess, products.excess(place[j], adjoints.norm(j)));
-      auto one = ResponseEstimate::of_cells(cells, contact, sign, solver.mesh().communicator());
+      auto       one       = ResponseEstimate::of_cells(cells, gaps.integral(z.pressures), sign,
+                                                        solver.mesh().communicator());
       const bool is_linear = solver.mesh().degree() == 1;
       if (is_linear && place[j] > 0)
         one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
@@ -328,7 +327,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
         }
       // J depends on loads through the state and, where J contains their work, directly.
       if (!is_geometry)
-        one.add_data(loads.works(stationary
+        one.add_data(loads.works(place[j] == 0
                                    ? z.displacement
                                    : sum(z.displacement, s + z.loads, all[0].displacement)),
                      1., solver.mesh().communicator());

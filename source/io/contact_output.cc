@@ -82,6 +82,21 @@ std::vector<std::vector<bool>> candidates(const Sources<dim> &sources)
   return result;
 }
 
+/// Return the quantities at the points of the VTU file.
+template <int dim>
+std::vector<Quantity> quantities(const bool friction)
+{
+  std::vector<Quantity> result = {{"pressure", 1},       {"gap", 1},
+                                  {"force", 1},          {"area", 1},
+                                  {"active", 1},         {"weak", 1},
+                                  {"candidate", 1},      {"slave", 1},
+                                  {"pair", 1},           {"body", 1},
+                                  {"displacement", dim}, {"design_displacement", dim}};
+  if (friction)
+    result.insert(result.end(), {{"traction", dim}, {"slip", dim}, {"friction", 1}});
+  return result;
+}
+
 /// Return the VTU text. A node on the edge of two pairs has a point in each, because each pair
 /// shows its own values on its own faces.
 template <int dim>
@@ -96,16 +111,8 @@ std::string faces_text(const Sources<dim>             &sources,
   for (unsigned int p = 0; p < pairs.size(); ++p)
     nodal.push_back(nodal_points<dim>(sources, p, state.contact));
   // The values below are in the order of these quantities.
-  std::vector<Quantity> quantities = {{"pressure", 1},       {"gap", 1},
-                                      {"force", 1},          {"area", 1},
-                                      {"active", 1},         {"weak", 1},
-                                      {"candidate", 1},      {"slave", 1},
-                                      {"pair", 1},           {"body", 1},
-                                      {"displacement", dim}, {"design_displacement", dim}};
-  const bool            friction   = state.has_friction();
-  if (friction)
-    quantities.insert(quantities.end(), {{"traction", dim}, {"slip", dim}, {"friction", 1}});
-  VtuGrid<dim - 1, dim>                                               grid(quantities, {});
+  const bool            friction = state.has_friction();
+  VtuGrid<dim - 1, dim> grid(quantities<dim>(friction), {});
   std::map<std::tuple<unsigned int, unsigned int, int>, unsigned int> number; // node, pairs
   for (const auto &face : sources.surface.faces())
     {

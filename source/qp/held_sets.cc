@@ -168,8 +168,8 @@ std::vector<HeldSets::MovedSlip> HeldSets::moved_slips(const MultiVector &w,
   return all;
 }
 
-/// Turn slips against the motion round, the smallest first, until friction forces exceed what is
-/// @p missing, and let the next contact stick.
+/// Turn slips against the motion round, the smallest first, as long as their friction forces do not
+/// exceed what is @p missing, and let the next contact stick.
 void HeldSets::hold_slips(const std::vector<MovedSlip> &all, const double missing, FreeRows &rows)
 {
   const unsigned int     rank = problem.context().rank();
@@ -184,9 +184,10 @@ void HeldSets::hold_slips(const std::vector<MovedSlip> &all, const double missin
   double gained = 0.;
   for (const MovedSlip &moved : against)
     {
-      // If all turned slips do not suffice, the last one of them sticks.
+      // The force of the contact that sticks lies between those of both slips. If all turned slips
+      // do not suffice, the last one of them sticks.
       sticks = moved;
-      if (gained >= missing)
+      if (gained + moved.gain >= missing)
         break;
       gained += moved.gain;
       if (moved.rank == rank)

@@ -46,9 +46,9 @@ void ResponseParameters::check(const SectionCheck &section) const
   auto read = make_response<3>(*this)->entries();
   read.push_back("Quantity");
   section.require_read(*this, read, "must be left out for Quantity = " + quantity);
-  if (reads("Point") && !reads("Body"))
+  if (reads("Point") && reads("Face") && !reads("Body"))
     section.require(!face.empty(), "Face", face, "must be given for Quantity = " + quantity);
-  else if (reads("Point"))
+  else if (reads("Point") && reads("Body"))
     {
       section.require(point.empty() != face.empty(), "Point", to_text(point),
                       "either 'Point' or 'Face' must be given");
@@ -56,7 +56,8 @@ void ResponseParameters::check(const SectionCheck &section) const
       section.require(point.empty() || component != Component::normal, "Component",
                       to_text(component), "must be x, y or z with 'Point'");
     }
-  const bool turns = quantity == "rotation" || quantity == "reaction moment";
+  const bool turns =
+    quantity == "rotation" || quantity == "reaction moment" || quantity == "friction moment";
   section.require(component != Component::z || section.dimension == 3 || turns, "Component",
                   to_text(component), "must be normal, x or y for Dimension = 2");
 }

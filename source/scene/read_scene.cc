@@ -12,6 +12,10 @@
 
 namespace snug::scene {
 namespace {
+/// Length of a list of choices in the reference above which the list is that of the meanings below
+/// the table.
+const std::size_t longest_choice = 280;
+
 /// Maximum number of bytes read from devices and pipes.
 constexpr std::size_t longest_stream = 16u << 20;
 
@@ -278,7 +282,9 @@ void print_reference(std::ostream &out)
       for (const auto &entry : entries.descriptions())
         if (entry.section == section.name)
           out << "| `" << entry.name << "` | " << initial(entry.initial) << " | "
-              << table_cell(entry.form.allowed) << " | " << table_cell(entry.meaning) << " |\n";
+              << table_cell(entry.form.allowed.size() > longest_choice ? "one of those below"
+                                                                       : entry.form.allowed)
+              << " | " << table_cell(entry.meaning) << " |\n";
       for (const auto &entry : entries.descriptions())
         if (entry.section == section.name)
           print_meanings(entry, out);

@@ -48,11 +48,9 @@ TEST(Friction, AgreesWithGaussSeidelOnHeldBodies)
 
 TEST(Friction, SolvesOrRefusesRandomCases)
 {
-  unsigned int  solved = 0, refused = 0, not_converged = 0;
-  unsigned long most = 0;
+  unsigned int solved = 0, refused = 0, not_converged = 0;
   for (const unsigned int n_tangents : {1u, 2u})
-    for (unsigned int seed = getenv("SEED") ? atoi(getenv("SEED")) : 0;
-         seed < (getenv("SEED") ? atoi(getenv("SEED")) + 1u : 300u); ++seed)
+    for (unsigned int seed = 0; seed < 300; ++seed)
       {
         FrictionCase of;
         of.n_tangents           = n_tangents;
@@ -69,7 +67,6 @@ TEST(Friction, SolvesOrRefusesRandomCases)
             EXPECT_LT(friction_errors(data, lambda, solution.amplitudes).worst(), 1e-7)
               << n_tangents << " " << seed;
             ++solved;
-            most = std::max(most, solution.f_mults);
           }
         catch (const snug::SolveError &error)
           {
@@ -78,9 +75,9 @@ TEST(Friction, SolvesOrRefusesRandomCases)
                  what.find("no equilibrium") == std::string::npos
                ? not_converged
                : refused) += 1;
-            std::cout << n_tangents << " " << seed << " " << what << "\n";
           }
       }
-  std::cout << solved << " " << refused << " " << not_converged << " " << most << "\n";
+  EXPECT_GT(solved, 300u);
+  EXPECT_GT(refused, 0u);
   EXPECT_LE(not_converged, 6u);
 }
