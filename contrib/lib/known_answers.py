@@ -47,6 +47,44 @@ def point_contact(result, _):
     return hertz_point(result, load, 4., moduli(*EQUAL), lambda p: math.hypot(p["x"], p["y"]))
 
 
+def half_width_by_moments(points, force):
+    """Return the half width of the semi-ellipse with the second moment of the forces of points
+    along x about their own centre."""
+    forces = [(p["x"], force(p)) for p in points]
+    total = math.fsum(f for _, f in forces)
+    centre = math.fsum(x * f for x, f in forces) / total
+    return 2 * math.sqrt(math.fsum((x - centre)**2 * f for x, f in forces) / total)
+
+
+def shear_force(point):
+    return point["traction_x"] * point["area"]
+
+
+def cattaneo(result, _):
+    """Half widths c of the stick zone are those of mu p - q, over the half width of p: (c / a)^2 is
+    1 - T / mu P, and on the way back from T1 it is 1 - (T1 - T) / 2 mu P. The loop loses
+    4 (mu P)^2 / (pi E*) ((1 - t) log(1 - t) + t - t^2 / 2) with t = T1 / mu P."""
+    friction, load, modulus, t = .5, 8.6, moduli(*EQUAL), .75
+
+    def stick(name, limit):
+        points = result.cases[name]
+        return (half_width_by_moments(points, limit) /
+                half_width_by_moments(points, lambda p: p["force"]))
+
+    def loaded(point):  # the force on the cylinder is along x, that on the slave against it
+        return friction * point["force"] - abs(shear_force(point))
+    start = {p["x"]: shear_force(p) for p in result.cases["more"]}
+    back = stick("loop-1", lambda p: 2 * friction * p["force"] -
+                 abs(shear_force(p) - start[p["x"]]))
+    lost = math.fsum(case["state"]["friction"]["dissipation"]
+                     for case in result.summary["load_cases"] if "loop" in case["name"])
+    return [("c/a at 1/2", stick("half", loaded), math.sqrt(1 / 2)),
+            ("c/a at 3/4", stick("more", loaded), math.sqrt(1 - t)),
+            ("c/a on the way back at 0", back, math.sqrt(1 - t / 2)),
+            ("work lost in the loop", lost, 4 * (friction * load)**2 / (math.pi * modulus) *
+             ((1 - t) * math.log(1 - t) + t - t**2 / 2))]
+
+
 def axisymmetric_point_contact(result, _):
     load = abs(result.state["contact_force"][1])
     return hertz_point(result, load, 4., moduli(*EQUAL), lambda p: p["x"])

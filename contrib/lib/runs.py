@@ -86,10 +86,17 @@ def read_csv(path):
         return [{key: number(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
 
 
+def points_of(directory):
+    """Return the contact points of the last state in a directory."""
+    files = sorted(directory.glob("contact-*.csv"))
+    return read_csv(files[-1]) if files else []
+
+
 class Result:
     """This class has what one run leaves: its summary, the history of a search, and the contact
-    points of the last state, with several load cases those of the first one. The picture is the
-    file of the fields of a sensitivity. share is the part of a core that the run had."""
+    points of the last state, with several load cases those of the first one and, in cases, of
+    each by its name. The picture is the file of the fields of a sensitivity. share is the part
+    of a core that the run had."""
 
     def __init__(self, directory, share=1.):
         self.share = share
@@ -100,10 +107,9 @@ class Result:
         self.picture = ""
         if self.summary.get("task") == "sensitivity":
             self.picture = (directory / "solution-0000.0000.vtu").read_text()
-        for case in self.summary.get("load_cases", [])[:1]:
-            directory /= case["name"]
-        files = sorted(directory.glob("contact-*.csv"))
-        self.points = read_csv(files[-1]) if files else []
+        self.cases = {case["name"]: points_of(directory / case["name"])
+                      for case in self.summary.get("load_cases", [])}
+        self.points = next(iter(self.cases.values())) if self.cases else points_of(directory)
 
     def pressures(self, pair=None):
         """Return the pressures at the contact points, of one pair if given."""
