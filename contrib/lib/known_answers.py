@@ -85,6 +85,16 @@ def cattaneo(result, _):
              ((1 - t) * math.log(1 - t) + t - t**2 / 2))]
 
 
+# Displacements of test SSNV128 of Code_Aster along the plane at x.
+SSNV128 = {0.: 2.86e-2, 1.25: 2.72e-2, 5.: 2.28e-2, 7.5: 1.98e-2}
+
+
+def ssnv128(result, _):
+    """The plane does not move: slips are displacements."""
+    slips = {round(p["x"], 9): p["slip_x"] for p in result.points}
+    return [(f"u at {x:g}", slips[x], known) for x, known in SSNV128.items()]
+
+
 def axisymmetric_point_contact(result, _):
     load = abs(result.state["contact_force"][1])
     return hertz_point(result, load, 4., moduli(*EQUAL), lambda p: p["x"])
