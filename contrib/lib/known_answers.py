@@ -6,6 +6,8 @@ one, and returns quantities as (name, value, known answer)."""
 import copy
 import math
 
+from runs import RunError, run
+
 
 def moduli(*bodies):
     """Return Hertz' modulus E* of (E, nu) pairs."""
@@ -93,6 +95,26 @@ def ssnv128(result, _):
     """The plane does not move: slips are displacements."""
     slips = {round(p["x"], 9): p["slip_x"] for p in result.points}
     return [(f"u at {x:g}", slips[x], known) for x, known in SSNV128.items()]
+
+
+def incline(entries, slope):
+    """Return the measure of the force along the incline and of the largest slope that holds, by
+    bisection between 0.95 and 1.06 of the known one. Of a steeper one the program tells which body
+    escapes."""
+    def holds(tried):
+        done = run("prm/incline.prm", [*entries, f"Body block/Body force={tried:.12g}, -1"])
+        if done.result is None and "body block escapes" not in done.message:
+            raise RunError(f"slope {tried}: {done.message}")
+        return done.result is not None
+
+    def measure(result, _):
+        low, high = .95 * slope, 1.06 * slope
+        for _ in range(14):
+            middle = (low + high) / 2
+            low, high = (middle, high) if holds(middle) else (low, middle)
+        along, against = result.state["contact_force"]
+        return [("largest slope", low, slope), ("force along it", -along / against, .299)]
+    return measure
 
 
 def axisymmetric_point_contact(result, _):
