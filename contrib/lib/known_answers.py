@@ -97,24 +97,55 @@ def ssnv128(result, _):
     return [(f"u at {x:g}", slips[x], known) for x, known in SSNV128.items()]
 
 
-def incline(entries, slope):
-    """Return the measure of the force along the incline and of the largest slope that holds, by
-    bisection between 0.95 and 1.06 of the known one. Of a steeper one the program tells which body
-    escapes."""
-    def holds(tried):
-        done = run("prm/incline.prm", [*entries, f"Body block/Body force={tried:.12g}, -1"])
-        if done.result is None and "body block escapes" not in done.message:
-            raise RunError(f"slope {tried}: {done.message}")
-        return done.result is not None
+def largest(scene, entries, known):
+    """Return the largest number that holds in entries(number), by bisection between 0.99 and 1.02
+    of the known one. For a larger one the program tells that a body escapes."""
+    low, high = .99 * known, 1.02 * known
+    for _ in range(12):
+        middle = (low + high) / 2
+        done = run(scene, entries(middle))
+        if done.result is None and "escapes" not in done.message:
+            raise RunError(f"{scene}, {middle}: {done.message}")
+        low, high = (middle, high) if done.result else (low, middle)
+    return low
 
+
+def incline(entries, known):
+    """Return the measure of the largest slope and of the force along the incline."""
     def measure(result, _):
-        low, high = .95 * slope, 1.06 * slope
-        for _ in range(14):
-            middle = (low + high) / 2
-            low, high = (middle, high) if holds(middle) else (low, middle)
+        slope = largest("prm/incline.prm", lambda tried: [
+            *entries, f"Body block/Body force={tried:.12g}, -1"], known)
         along, against = result.state["contact_force"]
-        return [("largest slope", low, slope), ("force along it", -along / against, .299)]
+        return [("largest slope", slope, known), ("force along it", -along / against, .299)]
     return measure
+
+
+def tensions(points, pull):
+    """Return (angle from the end, tension behind it) of the contacts of the belt, whose end is
+    pulled. Friction acts at radius 1, the tension at 1.005."""
+    found, tension, middle = [], pull, 1.005
+    for p in sorted(points, key=lambda p: p["x"]):
+        angle = math.atan2(p["x"], p["y"])
+        tension += (p["traction_y"] * math.sin(angle) -
+                    p["traction_x"] * math.cos(angle)) * p["area"] / middle
+        found.append((angle, tension))
+    return found
+
+
+def belt(result, _):
+    """The tension falls by exp(-mu angle / 1.005) from the end. After the release it grows from
+    the end as fast as it falls beyond."""
+    pull, release = (tensions(result.cases[name], force)
+                     for name, force in (("pull", 1.), ("release", .7)))
+    return [("tension at the start", pull[-1][1], math.exp(-.3 * math.pi / 2 / 1.005)),
+            ("largest tension", max(tension for _, tension in release), math.sqrt(.7))]
+
+
+def belt_slides(result, _):
+    ratio = largest("prm/belt.prm", lambda tried: ["Body belt/Supports=", *(
+        f"Load case {case}/Pressure=belt.start: -1/0.01, belt.end: -{tried:.12g}/0.01"
+        for case in result.cases)], math.exp(.3 * math.pi / 2 / 1.005))
+    return [("largest ratio", ratio, math.exp(.3 * math.pi / 2 / 1.005))]
 
 
 def axisymmetric_point_contact(result, _):
