@@ -110,6 +110,28 @@ def largest(scene, entries, known):
     return low
 
 
+# Half-width and largest pressure over those of Hertz, and half-width of the stick zone over that
+# of the contact, of contrib/studies/spence for a coefficient of friction of 0.3.
+SPENCE = .9560, 1.3111, .1774
+
+
+def spence(result, _):
+    """Half-widths end in the middle between two contacts."""
+    points = sorted(result.cases["press-19"], key=lambda p: p["x"])
+
+    def end(inside):
+        last = max(i for i, p in enumerate(points) if inside(p))
+        return (points[last]["x"] + points[last + 1]["x"]) / 2
+    radius, modulus = 500., 1000.
+    load = 2 * math.fsum(p["force"] for p in points)
+    hertz = math.sqrt(4 * load * radius / (math.pi * modulus))
+    a = end(lambda p: p["pressure"] > 0)
+    return [("a", a, SPENCE[0] * hertz),
+            ("largest p", max(p["pressure"] for p in points),
+             SPENCE[1] * 2 * load / (math.pi * hertz)),
+            ("c/a", end(lambda p: p["friction"] == "stick") / a, SPENCE[2])]
+
+
 def incline(entries, known):
     """Return the measure of the largest slope and of the force along the incline."""
     def measure(result, _):
