@@ -372,3 +372,83 @@ def leaf_spring(result, _):
     return [(name, found[name], start[name])
             for name in ("upper mass", "lower mass")] + [
         ("von Mises norm", found["stress"], 109.5)]
+
+
+def slip_work(before, after):
+    """Return the work of the mean friction forces of two load steps over the slips between them.
+    Forces are those on the slave, and slips those of the slave, which they oppose."""
+    return -math.fsum((p[f"traction_{x}"] + q[f"traction_{x}"]) / 2 * q["area"] * q[f"slip_{x}"]
+                      for p, q in zip(before, after) if q["friction"] != "open"
+                      for x in "xyz" if f"slip_{x}" in q)
+
+
+def stick_radius(points, coefficient):
+    """Return the radius of the disc on which the friction forces are below their limit, from the
+    second moment of the reserve, which is proportional to (c^2 - r^2)^(1/2)."""
+    reserves = [(p["x"]**2 + p["y"]**2, p["area"] * (coefficient * p["pressure"] - math.hypot(
+        *(p[f"traction_{x}"] for x in "xyz")))) for p in points]
+    return math.sqrt(2.5 * math.fsum(square * reserve for square, reserve in reserves) /
+                     math.fsum(reserve for _, reserve in reserves))
+
+
+class MindlinCycle:
+    """This class has the forces, displacements and works of prm/mindlin.prm, of both halves, and
+    Mindlin's formulas for them; steps of a quarter of a cycle: 4."""
+
+    coefficient, quarter = .5, 4
+    compliance = 2 * (2 - .3) / (1000 / 2.6)  # sum of (2 - nu) / G
+
+    def __init__(self, result):
+        states = [case["state"] for case in result.summary["load_cases"]]
+        self.steps = list(result.cases.values())
+        self.load = 2 * states[0]["contact_force"][2]
+        self.radius = (3 * self.load * 4 / (4 * moduli(*EQUAL)))**(1 / 3)
+        self.forces = [-2 * state["contact_force"][0] for state in states]
+        self.places = [.0022 * 2 / math.pi * math.asin(math.sin(math.pi / 2 * i / self.quarter))
+                       for i in range(len(states))]
+        self.energies = [2 * state["strain_energy"] for state in states]
+        self.dissipations = [2 * state["friction"]["dissipation"] for state in states]
+        self.turn = self.forces[self.quarter] / self.limit()
+        self.cycle = range(self.quarter + 1, 5 * self.quarter + 1)
+
+    def limit(self):
+        return self.coefficient * self.load
+
+    def works(self):
+        """Return the work of the tangential force in each step of the cycle: the trapezoids."""
+        return [(self.forces[i] + self.forces[i - 1]) / 2 * (self.places[i] - self.places[i - 1])
+                for i in self.cycle]
+
+    def slip_works(self):
+        return [2 * slip_work(self.steps[i - 1], self.steps[i]) for i in self.cycle]
+
+    def stick(self, step):
+        """Return the radius of the disc that sticks over that of the contact, and Mindlin's."""
+        full = stick_radius([{**p, "traction_x": 0, "traction_y": 0, "traction_z": 0}
+                             for p in self.steps[step]], self.coefficient)
+        return (stick_radius(self.steps[step], self.coefficient) / full,
+                (1 - self.forces[step] / self.limit())**(1 / 3))
+
+    def displacement(self, force):
+        """Return Mindlin's displacement under a first force."""
+        return 3 * self.limit() * self.compliance / (16 * self.radius) * (
+            1 - (1 - force / self.limit())**(2 / 3))
+
+    def loss(self):
+        """Return Mindlin's energy lost in a cycle."""
+        t = self.turn
+        return 9 * self.limit()**2 * self.compliance / (10 * self.radius) * (
+            1 - (1 - t)**(5 / 3) - 5 * t / 6 * (1 + (1 - t)**(2 / 3)))
+
+
+def mindlin(result, _):
+    """Quantities are the radius that sticks at half of the first turning point's displacement and
+    there, the area of the loop of force over displacement, and the work of friction in it, which
+    is that area less the growth of the strain energy."""
+    cycle = MindlinCycle(result)
+    area = math.fsum(cycle.works())
+    growth = cycle.energies[cycle.cycle[-1]] - cycle.energies[cycle.quarter]
+    return [("c/a, step 2", *cycle.stick(2)), ("c/a, step 4", *cycle.stick(4)),
+            ("loop", area, cycle.loss()),
+            ("friction", math.fsum(cycle.slip_works()), area - growth),
+            ("dissipation", math.fsum(cycle.dissipations[i] for i in cycle.cycle), area)]
