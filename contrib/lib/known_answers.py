@@ -452,3 +452,30 @@ def mindlin(result, _):
             ("loop", area, cycle.loss()),
             ("friction", math.fsum(cycle.slip_works()), area - growth),
             ("dissipation", math.fsum(cycle.dissipations[i] for i in cycle.cycle), area)]
+
+
+def press_fit(result, _):
+    """The answers are Lame's pressure of rings from 10 to 20 and 20 to 40 that are held inside and
+    outside, the torque per turn of rings that stick, and the torque that slides."""
+    (a, b, c), E, nu, coefficient, turn = (10., 20., 40.), 210000, .3, .15, 1e-4
+    shear = E / (2 * (1 + nu))
+
+    def compliance(fixed):  # of displacements A (r - fixed^2 / r)
+        return (b - fixed**2 / b) / (2 * shear * (1 / (1 - 2 * nu) + fixed**2 / b**2))
+    pressure = .02 / (compliance(a) - compliance(c))
+    stiffness = 4 * math.pi * shear / (1 / a**2 - 1 / c**2)
+    largest = coefficient * pressure * 2 * math.pi * b**2
+    states = [case["state"] for case in result.summary["load_cases"]]
+    steps = len(states) - 1
+    return [("pressure", max(result.pressures()), pressure),
+            ("torque, step 1", states[1]["responses"]["torque"], stiffness * turn),
+            (f"torque, step {steps}", states[-1]["responses"]["torque"], largest),
+            ("dissipation", math.fsum(state["friction"]["dissipation"] for state in states),
+             largest * (steps * turn - largest / stiffness))]
+
+
+def press_fit_bore(result, _):
+    """No torque is above that of the peak pressure on the whole bore, and the peak is as before."""
+    found, start = result.state["responses"], result.summary["initial_state"]["responses"]
+    return [("torque", -found["torque"], .15 * found["peak"] * 2 * math.pi * 20**2),
+            ("peak", found["peak"], start["peak"])]
