@@ -163,11 +163,21 @@ def belt(result, _):
             ("largest tension", max(tension for _, tension in release), math.sqrt(.7))]
 
 
-def belt_slides(result, _):
-    ratio = largest("prm/belt.prm", lambda tried: ["Body belt/Supports=", *(
-        f"Load case {case}/Pressure=belt.start: -1/0.01, belt.end: -{tried:.12g}/0.01"
-        for case in result.cases)], math.exp(.3 * math.pi / 2 / 1.005))
-    return [("largest ratio", ratio, math.exp(.3 * math.pi / 2 / 1.005))]
+def pulled(ratio):
+    """Return entries that pull the belt at both ends, with 1 at its start."""
+    return ["Body belt/Supports=", *(
+        f"Load case {case}/Pressure=belt.start: -1/0.01, belt.end: -{ratio:.12g}/0.01"
+        for case in ("pull", "release"))]
+
+
+def belt_pulled(result, _):
+    """The tension falls from both ends; where it is least, the belt does not slip. The belt slides
+    if this place is at the start."""
+    quarter = .3 * math.pi / 2 / 1.005
+    ratio = largest("prm/belt.prm", pulled, math.exp(quarter))
+    return [("least tension", min(tension for _, tension in tensions(result.cases["pull"], 1.3)),
+             math.sqrt(1.3) * math.exp(-quarter / 2)),
+            ("largest ratio", ratio, math.exp(quarter))]
 
 
 def axisymmetric_point_contact(result, _):
