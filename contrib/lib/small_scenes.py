@@ -31,6 +31,13 @@ RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
     "norm": 5 * 2**.25, "peak": 5, "variance": Below(1e-12)}.items()})
 
 
+# Pressure 5 and shears 0.3 * 5 and 2 on areas of 1; slips are 0.01 - shear / 500.
+FRICTION_ENTRIES = values({"load_cases.0.state.responses.stuck": 1, **{
+    f"load_cases.1.state.responses.{name}": answer for name, answer in {
+        "lost": 1.5 * .007 + 2 * .006, "way": .007, "longest": .006, "shear": 1.5, "largest": 2,
+        "stuck": Below(1e-6), "force": -3.5, "moment": .75}.items()}})
+
+
 def two_materials(result, _):
     """The energy per thickness is int N^2 / 2M over the bar's length, whose height is 10."""
     soft, hard = guided_modulus(10, .4), guided_modulus(210000, .3)
@@ -211,6 +218,7 @@ CHECKS = [
     Check("six-blocks", ["Solver/Preconditioner=lumped"], six_blocks, 1e-8),
     Check("paired-anew", [], paired_anew, 1e-7),
     Check("responses", [], RESPONSES, 1e-6),
+    Check("friction-entries", [], FRICTION_ENTRIES, 1e-6),
     Check("responses", ["Accuracy/Estimate=responses"], even_stress, 0.),
     Check("responses", ["Accuracy/Estimate=none"],
           same("state.energy", less=("times.accuracy",)), 1e-12, []),

@@ -99,11 +99,6 @@ void PairParameters::check(const SectionCheck &section) const
   geometry::require_formula(section, "Friction coefficient", friction_coefficient,
                             friction_coefficient);
   geometry::require_formula(section, "Friction bound", friction_bound, friction_bound);
-  section.require(friction == Friction::Coulomb || friction_coefficient == "0",
-                  "Friction coefficient", friction_coefficient,
-                  "must be 0 unless Friction = Coulomb");
-  section.require(friction == Friction::Tresca || friction_bound == "0", "Friction bound",
-                  friction_bound, "must be 0 unless Friction = Tresca");
 }
 
 void ContactParameters::declare(Entries &entries)

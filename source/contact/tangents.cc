@@ -246,7 +246,7 @@ void Contact<dim>::make_tangents(const Field                      &positions,
       const auto        &slaves = groups[p].rows->slaves();
       const unsigned int begin  = first;
       first += slaves.size();
-      if (chosen[p].parameters.friction == Friction::none)
+      if (!chosen[p].parameters.has_friction())
         continue;
       const auto of_pair =
         frictions_at<dim>(chosen[p], slaves, placed.unmoved().reference_positions());

@@ -42,6 +42,29 @@ void check_sides(const Scene                             &scene,
     contact.require(std::count(masters.begin(), masters.end(), face) == 0, "Pairs", value,
                     "'" + face + "' must not be paired with itself");
 }
+
+/// Check that limits of friction are set for pairs with the law that reads them. Pairs may inherit
+/// a limit that they do not read.
+void check_limits(const Scene            &scene,
+                  const Origins          &origins,
+                  const contact::Friction law,
+                  const std::string      &entry,
+                  const std::string contact::PairParameters::*limit)
+{
+  const auto       &pairs         = scene.contact.pairs;
+  const std::string default_limit = scene.contact.defaults.*limit;
+  const std::string allowed       = "must be 0 unless Friction = " + to_text(law);
+  const auto        reads = [law](const contact::PairParameters &of) { return of.friction == law; };
+  SectionCheck("Contact", origins, scene.dimension)
+    .require(default_limit == "0" || reads(scene.contact.defaults) ||
+               std::any_of(pairs.begin(), pairs.end(),
+                           [&](const auto &pair) { return reads(pair.parameters); }),
+             entry, default_limit, allowed);
+  for (const auto &pair : pairs)
+    SectionCheck(pair.section(), origins, scene.dimension)
+      .require(reads(pair.parameters) || pair.parameters.*limit == default_limit, entry,
+               pair.parameters.*limit, allowed);
+}
 } // namespace
 
 void check_contact(const Scene &scene, const Origins &origins)
@@ -66,5 +89,9 @@ void check_contact(const Scene &scene, const Origins &origins)
                       "'" + pair.slave + "' and '" + pair.master + "' must not be paired twice");
       pair.parameters.check(SectionCheck(pair.section(), origins, scene.dimension));
     }
+  check_limits(scene, origins, contact::Friction::Coulomb, "Friction coefficient",
+               &contact::PairParameters::friction_coefficient);
+  check_limits(scene, origins, contact::Friction::Tresca, "Friction bound",
+               &contact::PairParameters::friction_bound);
 }
 } // namespace snug::scene

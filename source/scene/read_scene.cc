@@ -282,7 +282,7 @@ void print_reference(std::ostream &out)
       for (const auto &entry : entries.descriptions())
         if (entry.section == section.name)
           out << "| `" << entry.name << "` | " << initial(entry.initial) << " | "
-              << table_cell(entry.form.allowed.size() > longest_choice ? "one of those below"
+              << table_cell(entry.form.allowed.size() > longest_choice ? "a name in the list below"
                                                                        : entry.form.allowed)
               << " | " << table_cell(entry.meaning) << " |\n";
       for (const auto &entry : entries.descriptions())

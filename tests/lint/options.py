@@ -9,14 +9,17 @@ from files import lines, place, text_files
 
 REFERENCE = "doc/parameters.md"
 ROW = re.compile(r"^\| `([^`]+)` \| (?:`([^`]*)`)? \| (.*?) \| ")
+IN_LIST = "a name in the list below"  # if the choices are too many for the table
+LIST = re.compile(r"^`([^`]+)`:$")
+CHOICE = re.compile(r"^\* `([^`]+)`: ")
 NAMED = ("Material", "Body", "Load case", "Obstacle", "Pair", "Shape", "Response")
 
-Entry = collections.namedtuple("Entry", "line section name default choices")
+Entry = collections.namedtuple("Entry", "line section name default allowed choices")
 
 
 def read_reference(root):
     """The entries; a section is its name in scenes without that of the thing: Body."""
-    section, entries = "", []
+    section, entries, listed = "", [], None
     for number, line in lines(root / REFERENCE):
         if line.startswith("## "):
             section = kind(line[3:].replace("subsection ", ""))
@@ -26,7 +29,13 @@ def read_reference(root):
             name, default, allowed = row.groups()
             choices = (allowed[7:].split(", ")
                        if allowed.startswith("one of ") else [])
-            entries.append(Entry(number, section, name, default, choices))
+            entries.append(Entry(number, section, name, default, allowed, choices))
+        begin, choice = LIST.match(line), CHOICE.match(line)
+        if begin:
+            listed = next((entry.choices for entry in entries if entry.allowed == IN_LIST and
+                           (entry.section, entry.name) == (section, begin.group(1))), None)
+        if choice and listed is not None:
+            listed.append(choice.group(1))
     return entries
 
 

@@ -72,11 +72,11 @@ struct PairParameters
   std::string gap                  = "0";   ///< formula in x, y, z that is added to gaps [length]
   bool        interference         = false; ///< true: initial overlap is intended
   Friction    friction             = Friction::none;
-  std::string friction_coefficient = "0"; ///< formula in x, y, z; Coulomb only
-  std::string friction_bound       = "0"; ///< formula in x, y, z; Tresca only [force/length^2]
+  std::string friction_coefficient = "0"; ///< formula in x, y, z; read by Coulomb
+  std::string friction_bound       = "0"; ///< formula in x, y, z; read by Tresca [force/length^2]
 
   /// Return whether there may be tangential forces.
-  bool has_friction() const { return friction_coefficient != "0" || friction_bound != "0"; }
+  bool has_friction() const { return friction != Friction::none; }
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;
