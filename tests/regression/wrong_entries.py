@@ -27,6 +27,7 @@ def input_cases(body, slave, master):
     tip = {"Responses": "tip", "Response tip/Quantity": "displacement",
            "Response tip/Component": "x"}
     peak = {"Responses": "peak", "Response peak/Quantity": "peak pressure"}
+    friction = {"Contact/Friction": "Coulomb"}
     core = {"Materials": "steel", own + "Region formulas": "core: x - 0.5",
             own + "Young's modulus": "1"}
     return [
@@ -99,6 +100,16 @@ def input_cases(body, slave, master):
               others={"Obstacles": "floor"}),
         wrong("gap that is no formula", "Contact/Gap", "2 * t",
               ["formula of x,y,z"]),
+        wrong("limit of no law of friction", "Contact/Friction coefficient", "0.3",
+              ["Friction = Coulomb"]),
+        wrong("coefficient that is no formula", "Contact/Friction coefficient", "0.3*t",
+              ["formula of x,y,z"], friction),
+        wrong("friction that drives", "Contact/Friction coefficient", "-0.1",
+              ["0 or above"], friction),
+        wrong("friction without its solver", "Solver/Method", "SMALSE-M",
+              ["active set", "friction"], {**friction, "Contact/Friction coefficient": "0.1"}),
+        wrong("gradients with a bound of friction", "Contact/Friction", "Tresca",
+              ["Coulomb", "gradients"], {**shape, "Contact/Friction bound": "1"}),
         wrong("zero cells", own + "Box cells", "0, 2, 2"),
         wrong("disc in 3D", own + "Mesh", "disc", ["Dimension = 2"]),
         wrong("hole larger than the ring", own + "Inner radius", "2",
