@@ -15,7 +15,7 @@ struct DenseData
   dense::Matrix                       F, G, d, e;
   dense::Matrix                       preconditioner; ///< M^{-1} of all rows; none if empty
   snug::qp::RowSet                    bounded;
-  std::vector<snug::qp::FrictionCone> cones = {}; ///< of one rank
+  std::vector<snug::qp::FrictionCone> cones = {}; ///< for problems with one owner
 };
 
 /// A dual problem with dense matrices; every rank owns a slice of the rows.
@@ -35,6 +35,8 @@ public:
     end                       = n * std::min(run.rank() + 1, owners) / owners;
     my_bounded.assign(data.bounded.begin() + first, data.bounded.begin() + end);
     my_d = slice(data.d);
+    if (end - first == n)
+      my_cones = data.cones;
     for (unsigned int i = first; i < end; ++i)
       my_diagonal.push_back(data.F(i, i));
   }
@@ -86,7 +88,7 @@ public:
 
   const RowSet &bounded() const override { return my_bounded; }
 
-  const std::vector<snug::qp::FrictionCone> &cones() const override { return data.cones; }
+  const std::vector<snug::qp::FrictionCone> &cones() const override { return my_cones; }
 
   const MultiVector &d() const override { return my_d; }
 
@@ -127,11 +129,12 @@ public:
   mutable unsigned int       n_faces = 0;
 
 private:
-  unsigned int             first, end;
-  RowSet                   my_bounded;
-  MultiVector              my_d;
-  std::vector<double>      my_diagonal;
-  mutable snug::RunContext run;
+  unsigned int                        first, end;
+  RowSet                              my_bounded;
+  MultiVector                         my_d;
+  std::vector<snug::qp::FrictionCone> my_cones; ///< of the rank that owns all rows
+  std::vector<double>                 my_diagonal;
+  mutable snug::RunContext            run;
 };
 
 class DenseFace : public snug::qp::FreeSet
