@@ -41,7 +41,7 @@ TestScene<dim> pushed_punch(unsigned int               n_cells,
   scene.method                    = method;
   scene.friction                  = contact::Friction::Coulomb;
   scene.friction_value            = "0.3";
-  scene.solver.relative_tolerance = dim == 2 ? 1e-13 : 3e-13;
+  scene.solver.relative_tolerance = 1e-12;
   return scene;
 }
 
