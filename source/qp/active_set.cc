@@ -1,10 +1,9 @@
 #include <snug/base/narrow.h>
 #include <snug/qp/active_set.h>
-#include <snug/qp/cycle_detector.h>
 #include <snug/qp/friction_newton.h>
-#include <snug/qp/kkt.h>
 #include <snug/qp/pcpg.h>
 #include <snug/qp/row_set.h>
+#include <snug/qp/set_iteration.h>
 #include <snug/qp/smalse.h>
 
 #include <deal.II/base/exceptions.h>
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <limits>
 #include <ostream>
-#include <sstream>
 
 namespace snug::qp {
 namespace {
@@ -21,19 +19,14 @@ namespace {
 const unsigned int allowed_stalls = 3;
 
 /// State of one solve: the iterate, the active set and the data that belong to them.
-class ActiveSetRun
+class ActiveSetRun : public SetIteration
 {
 public:
   ActiveSetRun(const DualProblem      &the_problem,
                const SolverParameters &the_parameters,
                const ActiveSetOptions &the_options)
-    : problem(the_problem)
-    , context(the_problem.context())
-    , parameters(the_parameters)
+    : SetIteration(the_problem, the_parameters, the_options, "active set", the_options.forcing)
     , options(the_options)
-    , history(the_options)
-    , f_mults_before(context.work.f_mults)
-    , inner_tolerance(the_options.forcing)
   {}
 
   /// Solve from @p from. Return false if the set does not settle: another solver must then continue
@@ -45,8 +38,6 @@ public:
 
   WarmStart start() const { return {lambda, mask}; }
 
-  unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
-
   DualSolution solution() const;
 
 private:
@@ -56,7 +47,7 @@ private:
     return inner_accuracy != CycleDetector::none && f_mults() > parameters.max_iterations / 4;
   }
 
-  KktResidual kkt_here() const
+  KktResidual kkt_here() const override
   {
     return kkt_residual(problem, free_set->amplitudes(residual), lambda, residual, scale);
   }
@@ -68,44 +59,15 @@ private:
       .relative;
   }
 
-  /// Return whether the KKT residual meets the tolerance, or has reached its rounding error.
-  bool is_met() const
-  {
-    return kkt.relative <= parameters.relative_tolerance ||
-           (at_rounding && kkt.relative - kkt.feasibility <=
-                             residual_rounding / projection_rounding * kkt.rounding / scale);
-  }
-
   void   begin(const WarmStart &from);
-  void   refresh_residual();
-  void   solve_on_set();
-  bool   finished();
   RowSet next_set() const;
   bool   change_set(const RowSet &next);
   void   keep_set();
 
-  const DualProblem           &problem;
-  RunContext                  &context;
-  const SolverParameters       parameters;
-  const ActiveSetOptions       options;
-  CycleDetector                history;
-  CycleDetector::InnerAccuracy inner_accuracy = CycleDetector::none;
-  const unsigned long          f_mults_before;
-
-  MultiVector              lambda, residual;
-  RowSet                   mask;
-  std::unique_ptr<FreeSet> free_set;
-  std::unique_ptr<Pcpg>    krylov; // of the face of mask
-  KktResidual              kkt;
-  std::vector<double>      negligible; // forces that may be rounding error, see force_rounding()
-  double                   scale = 0.;
-  double                   inner_tolerance;
-  double                   last_kkt    = 0.; // of the last solve on the same set
-  unsigned int             recurrences = 0;  // since the residual was computed as d - F lambda
-  unsigned int             outer       = 0;
-  bool                     solved      = true; // whether the last solve on the set converged
-  bool                     at_rounding = false;
-  unsigned int             stalls      = 0;
+  const ActiveSetOptions options;
+  RowSet                 mask;
+  std::unique_ptr<Pcpg>  krylov;        // of the face of mask
+  bool                   solved = true; // whether the last solve on the set converged
 };
 
 /// Set up the start of the iteration. All ranks decide together whether the start is warm and has a
@@ -146,57 +108,6 @@ void ActiveSetRun::begin(const WarmStart &from)
     }
   krylov = std::make_unique<Pcpg>(problem, *free_set, from.directions.off(complement(mask), comm));
   history.enter(fingerprint(mask, comm), std::numeric_limits<double>::max(), false);
-}
-
-void ActiveSetRun::refresh_residual()
-{
-  residual = problem.d();
-  residual.add(-1., problem.apply(lambda));
-  recurrences = 0;
-}
-
-void ActiveSetRun::solve_on_set()
-{
-  // The limit counts F-mults, not steps, because all solvers measure their work in F-mults.
-  if (f_mults() >= parameters.max_iterations)
-    throw not_converged("active set", kkt_here().relative, parameters.relative_tolerance, f_mults(),
-                        true);
-  // An inner solve below half of the wanted KKT residual would only polish a set that may still
-  // change. After a cycle the signs of small entries decide, so inner solves may go further down.
-  const double least =
-    (inner_accuracy == CycleDetector::none ? 0.5 : 0.005) * parameters.relative_tolerance;
-  const auto inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
-                                   narrow<unsigned int>(parameters.max_iterations - f_mults()));
-  recurrences += inner.iterations;
-  solved      = inner.converged;
-  at_rounding = inner.at_rounding;
-  // The w of the rows outside the set decides which rows enter. It needs the rigid amplitudes of
-  // this set.
-  kkt        = kkt_here();
-  negligible = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
-  ++outer;
-  std::ostringstream line;
-  line << "active set, step " << outer << ": KKT residual " << kkt.relative << ", "
-       << counted(f_mults(), "F-mult");
-  context.progress(line.str());
-}
-
-/// Return whether the tolerance is met by a lambda without tension on contact rows, and not only by
-/// the recurrence of the residual. Clips forces that are rounding errors.
-bool ActiveSetRun::finished()
-{
-  if (!is_met())
-    return false;
-  const MPI_Comm comm = context.communicator();
-  clip_rounding(problem.bounded(), negligible, lambda);
-  if (any(has_negative(problem.bounded(), lambda), comm))
-    return false;
-  if (recurrence_error(problem, residual, recurrences) <
-      0.1 * parameters.relative_tolerance * scale)
-    return true;
-  refresh_residual();
-  kkt = kkt_here();
-  return is_met();
 }
 
 RowSet ActiveSetRun::next_set() const
@@ -294,7 +205,7 @@ bool ActiveSetRun::run(const WarmStart &from)
   begin(from);
   while (true)
     {
-      solve_on_set();
+      solved = solve_on_set(*krylov).converged;
       if (finished())
         return true;
       const RowSet next = next_set();

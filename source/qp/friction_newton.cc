@@ -1,14 +1,11 @@
-#include <snug/base/narrow.h>
-#include <snug/qp/cycle_detector.h>
 #include <snug/qp/friction_newton.h>
 #include <snug/qp/held_sets.h>
-#include <snug/qp/kkt.h>
 #include <snug/qp/projected_gcr.h>
 #include <snug/qp/row_set.h>
+#include <snug/qp/set_iteration.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace snug::qp {
 namespace {
@@ -42,18 +39,14 @@ enum class Steps
 };
 
 /// State of one solve: the iterate, the sets and the data that belong to them.
-class FrictionRun
+class FrictionRun : public SetIteration
 {
 public:
   FrictionRun(const DualProblem      &the_problem,
               const SolverParameters &the_parameters,
               const Steps             the_steps)
-    : problem(the_problem)
-    , context(the_problem.context())
-    , parameters(the_parameters)
+    : SetIteration(the_problem, the_parameters, ActiveSetOptions(), "friction", forcing)
     , steps(the_steps)
-    , history(ActiveSetOptions())
-    , f_mults_before(context.work.f_mults)
     , w(the_problem.n_owned())
     , sets(the_problem)
   {}
@@ -61,16 +54,7 @@ public:
   DualSolution run(const WarmStart &from);
 
 private:
-  unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
-
-  bool is_met() const
-  {
-    return kkt.relative <= parameters.relative_tolerance ||
-           (at_rounding && kkt.relative - kkt.feasibility <=
-                             residual_rounding / projection_rounding * kkt.rounding / scale);
-  }
-
-  KktResidual kkt_here() const
+  KktResidual kkt_here() const override
   {
     const auto reduced = free_set->free_rows().reduced_residual(lambda, residual);
     return kkt_residual(problem, free_set->amplitudes(reduced), lambda, residual, scale);
@@ -78,36 +62,17 @@ private:
 
   void         begin(const WarmStart &from);
   FreeRows     rows_of(const WarmStart &from) const;
-  void         refresh_residual();
   void         take(const FreeRows &rows);
-  void         solve_on_sets();
-  bool         finished();
   FreeRows     next_rows() const;
   void         set_friction(const FrictionCone &cone, RowSet &rows, std::vector<Slip> &slips) const;
   void         keep_rows();
   void         change_rows(const FreeRows &next);
   DualSolution solution() const;
 
-  const DualProblem           &problem;
-  RunContext                  &context;
-  const SolverParameters       parameters;
-  const Steps                  steps;
-  CycleDetector                history;
-  CycleDetector::InnerAccuracy inner_accuracy = CycleDetector::none;
-  const unsigned long          f_mults_before;
-
-  MultiVector                   lambda, residual, w; // w is that of the last solve
+  const Steps                   steps;
+  MultiVector                   w; // of the last solve
   HeldSets                      sets;
-  std::unique_ptr<FreeSet>      free_set;
   std::unique_ptr<ProjectedGcr> krylov;
-  KktResidual                   kkt;
-  std::vector<double>           negligible; // see force_rounding()
-  double                        scale           = 0.;
-  double                        inner_tolerance = forcing;
-  double                        last_kkt        = 0.; // of the last solve on the same sets
-  unsigned int                  recurrences     = 0;
-  unsigned int                  outer = 0, stalls = 0;
-  bool                          at_rounding = false;
 };
 
 /// Return the sets of a warm start. Without a given set, forces at their limit slip.
@@ -162,13 +127,6 @@ void FrictionRun::begin(const WarmStart &from)
   history.enter(fingerprint(free_set->free_rows().rows(), comm), HUGE_VAL, false);
 }
 
-void FrictionRun::refresh_residual()
-{
-  residual = problem.d();
-  residual.add(-1., problem.apply(lambda));
-  recurrences = 0;
-}
-
 /// Take @p rows as the next sets, changed where they do not hold the bodies.
 void FrictionRun::take(const FreeRows &rows)
 {
@@ -176,45 +134,6 @@ void FrictionRun::take(const FreeRows &rows)
   free_set = sets.balanced(rows, w, scale, lambda);
   refresh_residual();
   krylov = std::make_unique<ProjectedGcr>(problem, *free_set);
-}
-
-void FrictionRun::solve_on_sets()
-{
-  if (f_mults() >= parameters.max_iterations)
-    throw not_converged("friction", kkt_here().relative, parameters.relative_tolerance, f_mults(),
-                        true);
-  // See ActiveSet for the least tolerance.
-  const double least =
-    (inner_accuracy == CycleDetector::none ? 0.5 : 0.005) * parameters.relative_tolerance;
-  const auto inner = krylov->solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
-                                   narrow<unsigned int>(parameters.max_iterations - f_mults()));
-  recurrences += inner.iterations;
-  at_rounding = inner.at_rounding;
-  kkt         = kkt_here();
-  w           = kkt.w;
-  negligible  = force_rounding(problem, lambda, kkt, scale, parameters.relative_tolerance);
-  ++outer;
-  std::ostringstream line;
-  line << "friction, step " << outer << ": KKT residual " << kkt.relative << ", "
-       << counted(f_mults(), "F-mult");
-  context.progress(line.str());
-}
-
-/// Return whether the tolerance is met by a lambda without tension on contact rows, and not only by
-/// the recurrence of the residual. Clips forces that are rounding errors.
-bool FrictionRun::finished()
-{
-  if (!is_met())
-    return false;
-  clip_rounding(problem.bounded(), negligible, lambda);
-  if (any(has_negative(problem.bounded(), lambda), context.communicator()))
-    return false;
-  if (recurrence_error(problem, residual, recurrences) <
-      0.1 * parameters.relative_tolerance * scale)
-    return true;
-  refresh_residual();
-  kkt = kkt_here();
-  return is_met();
 }
 
 /// Decide whether a closed contact sticks or slips.
@@ -300,7 +219,8 @@ DualSolution FrictionRun::run(const WarmStart &from)
   begin(from);
   while (true)
     {
-      solve_on_sets();
+      solve_on_set(*krylov);
+      w = kkt.w;
       if (finished())
         return solution();
       const FreeRows next   = next_rows();
