@@ -268,6 +268,38 @@ std::unique_ptr<Response<dim>> contact_measure(const ResponseParameters       &p
   return std::make_unique<ContactMeasure<dim>>(parameters, measure, entries, power, amount);
 }
 
+template <int dim>
+typename mesh::Surface<dim>::Field
+motion_of_slave(const state::StateSolver<dim>            &solver,
+                const unsigned int                        load_case,
+                const contact::Pair                      &pair,
+                const typename mesh::Surface<dim>::Field &positions,
+                const std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &)> &motion)
+{
+  const auto                        &surface = solver.surface();
+  typename mesh::Surface<dim>::Field moved(surface.n_nodes());
+  for (const auto &face : surface.faces())
+    if (contact::is_on(face, pair.slave))
+      for (const unsigned int node : face.nodes)
+        {
+          const auto to_space = solver.motion(load_case, face.body);
+          moved[node]         = to_space.vector_back(motion(to_space.point(positions[node])));
+        }
+  return moved;
+}
+
+template mesh::Surface<2>::Field
+motion_of_slave(const state::StateSolver<2> &,
+                unsigned int,
+                const contact::Pair &,
+                const mesh::Surface<2>::Field &,
+                const std::function<dealii::Tensor<1, 2>(const dealii::Tensor<1, 2> &)> &);
+template mesh::Surface<3>::Field
+motion_of_slave(const state::StateSolver<3> &,
+                unsigned int,
+                const contact::Pair &,
+                const mesh::Surface<3>::Field &,
+                const std::function<dealii::Tensor<1, 3>(const dealii::Tensor<1, 3> &)> &);
 template std::vector<bool>
 chosen_pairs(const state::StateSolver<2> &, const std::string &, unsigned int);
 template std::vector<bool>

@@ -21,6 +21,16 @@ template <int dim>
 std::vector<double>
 row_shares(const state::StateSolver<dim> &solver, const std::string &name, unsigned int load_case);
 
+/// Return virtual motions of the nodes of the slave side of a pair, a function of their positions
+/// in space, in the frames of the bodies. Other nodes are at rest.
+template <int dim>
+typename mesh::Surface<dim>::Field motion_of_slave(
+  const state::StateSolver<dim>                                               &solver,
+  const unsigned int                                                           load_case,
+  const contact::Pair                                                         &pair,
+  const typename mesh::Surface<dim>::Field                                    &positions,
+  const std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &)> &motion);
+
 /// @name Quantities of response_table()
 /// @{
 
