@@ -218,6 +218,20 @@ std::vector<double> Contact<dim>::areas(const Field &positions) const
 }
 
 template <int dim>
+std::vector<double> Contact<dim>::area_derivatives(const Field &positions,
+                                                   const Field &velocity) const
+{
+  const auto          in_space = placed.to_space(positions), motion = placed.turned(velocity);
+  std::vector<double> result;
+  for (const Group &group : groups)
+    {
+      const auto of_group = group.rows->area_derivatives(in_space, motion);
+      result.insert(result.end(), of_group.begin(), of_group.end());
+    }
+  return result;
+}
+
+template <int dim>
 typename Contact<dim>::Field Contact<dim>::area_gradient(const Field               &positions,
                                                          const std::vector<double> &factors) const
 {

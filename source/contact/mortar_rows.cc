@@ -207,6 +207,16 @@ std::vector<double> MortarRows<dim>::areas(const Field &positions) const
   return result;
 }
 
+template <int dim>
+std::vector<double> MortarRows<dim>::area_derivatives(const Field &positions,
+                                                      const Field &velocity) const
+{
+  std::vector<faces::Differential<1>> result;
+  for (const auto &sum : row_sums(Points<faces::Differential<1>>(positions, velocity)))
+    result.push_back(sum.area);
+  return slopes_of(result);
+}
+
 /// Record one row at a time, as a function of its sum, positions and normals.
 template <int dim>
 std::vector<typename MortarRows<dim>::template RowSum<double>>

@@ -12,6 +12,14 @@ dealii::Tensor<1, dim> slope_of(const dealii::Tensor<1, dim, faces::Differential
 }
 } // namespace
 
+std::vector<double> slopes_of(const std::vector<faces::Differential<1>> &numbers)
+{
+  std::vector<double> result;
+  for (const auto &number : numbers)
+    result.push_back(number.slope[0]);
+  return result;
+}
+
 template <int dim>
 Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &row)
 {

@@ -1,78 +1,18 @@
 #include <snug/base/errors.h>
 #include <snug/contact/contact.h>
-#include <snug/contact/nearest_face.h>
 #include <snug/contact/row_derivatives.h>
+#include <snug/contact/tangent_frames.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-
+#include <algorithm>
 #include <cmath>
-#include <optional>
-#include <set>
+#include <map>
 #include <sstream>
 #include <tuple>
 
 namespace snug::contact {
 namespace {
-/// Sine of the angle up to which a direction counts as held or as tangential.
-const double least_angle = 1e-6;
-
-/// Shape functions below this value do not count at a point of a face.
-const double least_weight = 1e-6;
-
-/// Return those of the @p nodes of a face that have a shape function above @p least, ascending and
-/// with hanging nodes replaced by their masters.
-template <int dim>
-std::vector<unsigned int> nodes_above(const double                     least,
-                                      const std::vector<double>       &shape_functions,
-                                      const std::vector<unsigned int> &nodes,
-                                      const mesh::Surface<dim>        &surface)
-{
-  std::set<unsigned int> result;
-  for (unsigned int k = 0; k < nodes.size(); ++k)
-    if (std::abs(shape_functions[k]) > least)
-      {
-        if (surface.masters(nodes[k]).empty())
-          result.insert(nodes[k]);
-        for (const auto &master : surface.masters(nodes[k]))
-          result.insert(master.first);
-      }
-  return {result.begin(), result.end()};
-}
-
-/// Return the projection to the directions that @p held leaves free.
-template <int dim>
-dealii::Tensor<2, dim> free_directions(const std::vector<dealii::Tensor<1, dim>> &held)
-{
-  dealii::Tensor<2, dim> result = dealii::unit_symmetric_tensor<dim>();
-  for (const auto &q : held)
-    result -= outer_product(q, q);
-  return result;
-}
-
-/// Return the number of eigenvalues of a positive semidefinite @p matrix of rank dim - 1 or less
-/// that are not round-off.
-template <int dim>
-unsigned int rank_of(const dealii::Tensor<2, dim> &matrix)
-{
-  const double least = least_angle * least_angle, sum = trace(matrix);
-  if (!(sum > least))
-    return 0;
-  // In 3D, the sum of the products of two eigenvalues is that of the two largest ones.
-  const double product = 0.5 * (sum * sum - trace(matrix * matrix));
-  return dim == 3 && product > least * sum ? 2 : 1;
-}
-
-/// Return the direction of the largest column of a positive semidefinite matrix, the first of equal
-/// ones.
-template <int dim>
-dealii::Tensor<1, dim> largest_column(const dealii::Tensor<2, dim> &matrix)
-{
-  unsigned int largest = 0;
-  for (int d = 1; d < dim; ++d)
-    if (matrix[d][d] > matrix[largest][largest] * (1. + 1e-6))
-      largest = d;
-  return matrix[largest] / matrix[largest].norm();
-}
+/// Sine of the angle up to which normals are parallel.
+const double least_angle_of_normals = 1e-6;
 
 /// Return the friction of a pair at the places @p x of the @p nodes.
 /// @throws InputError if it is negative or not finite there
@@ -103,92 +43,44 @@ std::vector<RowFriction> frictions_at(const Pair                               &
   return result;
 }
 
-/// This class makes the frames of the tangential rows of one pair.
+/// Return the rows of each slave node of obstacles with different normals.
 template <int dim>
-class FrameMaker
+std::map<unsigned int, std::vector<unsigned int>>
+obstacle_rows_at_nodes(const std::vector<RowPlace> &places,
+                       const std::vector<Pair>     &pairs,
+                       const std::vector<Row<dim>> &rows)
 {
-public:
-  explicit FrameMaker(PairGeometry<dim> geometry)
-    : pair(std::move(geometry)), on_master(pair.surface.n_nodes(), false)
-  {
-    if (pair.pair.obstacle)
-      return;
-    nearest.emplace(pair.surface, pair.sides.master, pair.shape, pair.positions);
-    for (const unsigned int face : pair.sides.master)
-      for (const unsigned int node : pair.surface.faces()[face].nodes)
-        {
-          on_master[node] = true;
-          for (const auto &master : pair.surface.masters(node))
-            on_master[master.first] = true;
-        }
-  }
+  std::map<unsigned int, std::vector<unsigned int>> result;
+  for (unsigned int i = 0; i < places.size(); ++i)
+    {
+      auto      &of_node  = result[places[i].slave];
+      const auto parallel = [&](const unsigned int other) {
+        return 1. - std::abs(rows[other].normal * rows[i].normal) <
+               least_angle_of_normals * least_angle_of_normals;
+      };
+      if (pairs[places[i].pair].obstacle && std::none_of(of_node.begin(), of_node.end(), parallel))
+        of_node.push_back(i);
+    }
+  return result;
+}
 
-  /// Return the frame of the contact row of a @p slave node and the number of its tangents.
-  std::pair<TangentFrame<dim>, unsigned int> frame(const unsigned int slave,
-                                                   const Row<dim>    &row) const
-  {
-    std::vector<unsigned int> at_foot, of_face;
-    if (nearest)
-      {
-        const auto  found = nearest->closest(pair.positions[slave]);
-        const auto &nodes = pair.surface.faces()[found.face].nodes;
-        const auto  shape = pair.shape.at(found.point.xi).value;
-        at_foot           = nodes_above(least_weight, shape, nodes, pair.surface);
-        of_face           = nodes_above(-1., shape, nodes, pair.surface);
-      }
-    const auto tangential = free_directions<dim>({row.normal});
-    const auto movable = tangential * movable_directions(slave, at_foot, row.normal) * tangential;
-    const unsigned int n_tangents = rank_of(movable);
-    TangentFrame<dim>  result;
-    // If only one direction of the tangent plane is free, it is the first tangent.
-    result.reference = largest_column(dim == 3 && n_tangents == 1 ? movable : tangential);
-    if (pair.pair.obstacle)
-      result.displacement = pair.obstacle_displacement();
-    // In axisymmetric sections, rotations are no rigid motions.
-    else if (!pair.surface.idealization().is_axisymmetric())
-      set_masters(row, of_face, result);
-    return {result, n_tangents};
-  }
-
-private:
-  const PairGeometry<dim>         pair;
-  std::optional<NearestFace<dim>> nearest; ///< none for obstacles
-  std::vector<bool>               on_master;
-
-  /// Choose the nodes for the couple: those of the row on the master, or those of the face opposite
-  /// to the slave node where the former do not spread in all tangential directions, as at nodes
-  /// that match.
-  void set_masters(const Row<dim>                  &row,
-                   const std::vector<unsigned int> &of_face,
-                   TangentFrame<dim>               &frame) const
-  {
-    for (const auto &coefficient : row.coefficients)
-      if (on_master[coefficient.first])
-        frame.masters.push_back(coefficient.first);
-    frame.spread = tangential_spread(row.normal, frame, pair.positions);
-    if (frame.spread == dim - 1)
-      return;
-    frame.masters = of_face;
-    frame.spread  = tangential_spread(row.normal, frame, pair.positions);
-  }
-
-  /// Return a matrix that is zero in the directions that the slave node and the nodes of the master
-  /// opposite to it hold.
-  dealii::Tensor<2, dim> movable_directions(const unsigned int               slave,
-                                            const std::vector<unsigned int> &opposite,
-                                            const dealii::Tensor<1, dim>    &normal) const
-  {
-    auto result = free_directions<dim>(pair.held[slave]);
-    for (const unsigned int node : opposite)
-      result += free_directions<dim>(pair.held[node]);
-    const dealii::Tensor<1, dim> free_normal = result * normal;
-    // The normal row resists the motion along the free part of the normal, which is not along the
-    // normal where the slave node is held in a direction at an angle to it.
-    if (opposite.empty() && free_normal.norm() > least_angle)
-      result -= outer_product(free_normal, free_normal) / free_normal.norm_square();
-    return result;
-  }
-};
+/// Let the first tangent of @p frame be along the obstacles with the normals @p a and @p b, unless
+/// the supports determine the only tangent. Return whether it is.
+template <int dim>
+bool share_first_tangent(const dealii::Tensor<1, dim> &a,
+                         const dealii::Tensor<1, dim> &b,
+                         const unsigned int            n_tangents,
+                         TangentFrame<dim>            &frame)
+{
+  if constexpr (dim == 3)
+    {
+      const auto along = cross_product_3d(a, b) / cross_product_3d(a, b).norm();
+      if (n_tangents == 2)
+        frame.reference = along;
+      return std::abs(frame.reference * along) > 1. - least_angle_of_normals;
+    }
+  return false;
+}
 
 /// Return a row as numbers that carry their derivatives.
 template <int dim>
@@ -240,7 +132,9 @@ void Contact<dim>::make_tangents(const Field                      &positions,
   frictions.assign(n_rows(), {});
   frames.assign(n_rows(), {});
   tangent_places.clear();
-  unsigned int first = 0;
+  others.assign(n_rows(), {});
+  const auto   at_nodes = obstacle_rows_at_nodes(row_places, chosen, paired);
+  unsigned int first    = 0;
   for (unsigned int p = 0; p < groups.size(); ++p)
     {
       const auto        &slaves = groups[p].rows->slaves();
@@ -250,7 +144,8 @@ void Contact<dim>::make_tangents(const Field                      &positions,
         continue;
       const auto of_pair =
         frictions_at<dim>(chosen[p], slaves, placed.unmoved().reference_positions());
-      const FrameMaker<dim> maker(geometry(p, positions, held));
+      const TangentFrames<dim> maker(geometry(p, positions, held));
+      const auto               rely_on_master = maker.rely_on_master(slaves, &paired[begin]);
       for (unsigned int i = 0; i < slaves.size(); ++i)
         {
           const unsigned int row = begin + i;
@@ -258,7 +153,15 @@ void Contact<dim>::make_tangents(const Field                      &positions,
           if (!of_pair[i].resists())
             continue;
           unsigned int n_tangents;
-          std::tie(frames[row], n_tangents) = maker.frame(slaves[i], paired[row]);
+          std::tie(frames[row], n_tangents) =
+            maker.frame(slaves[i], paired[row], rely_on_master[i]);
+          const auto &at_node = at_nodes.at(slaves[i]);
+          if (at_node.size() > 2)
+            n_tangents = 0;
+          else if (at_node.size() == 2)
+            others[row] = {at_node[at_node[0] == row],
+                           share_first_tangent(paired[at_node[0]].normal, paired[at_node[1]].normal,
+                                               n_tangents, frames[row])};
           for (unsigned int index = 0; index < n_tangents; ++index)
             tangent_places.push_back({row, index});
         }

@@ -41,16 +41,16 @@ void for_each_part(const mesh::Surface<dim>      &surface,
 }
 } // namespace
 
-template <int dim>
-std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
-                                    const typename mesh::Surface<dim>::Field &positions)
+template <int dim, typename Number>
+std::vector<Number> tributary_areas(const TributaryFaces<dim>     &of,
+                                    const PointField<dim, Number> &positions)
 {
-  const PointField<dim, double> x(positions);
-  std::vector<double>           share(of.surface.n_nodes(), 0.);
+  std::vector<Number> share(of.surface.n_nodes(), Number(0.));
   for (const unsigned int f : of.faces)
-    for_each_part(of.surface, f, of.shape, x, [&](const unsigned int k, const double part) {
-      share[of.surface.faces()[f].nodes[k]] += part;
-    });
+    for_each_part(of.surface, f, of.shape, positions,
+                  [&](const unsigned int k, const Number &part) {
+                    share[of.surface.faces()[f].nodes[k]] += part;
+                  });
   for (unsigned int node = 0; node < share.size(); ++node)
     // u_hanging = sum w_m u_m, so a force that is lumped to a hanging node acts on its masters with
     // the weights w_m.
@@ -59,13 +59,13 @@ std::vector<double> tributary_areas(const TributaryFaces<dim>                &of
   return share;
 }
 
-template <int dim>
-std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
-                                    const std::vector<unsigned int>          &nodes,
-                                    const typename mesh::Surface<dim>::Field &positions)
+template <int dim, typename Number>
+std::vector<Number> tributary_areas(const TributaryFaces<dim>       &of,
+                                    const std::vector<unsigned int> &nodes,
+                                    const PointField<dim, Number>   &positions)
 {
   const auto          share = tributary_areas(of, positions);
-  std::vector<double> result;
+  std::vector<Number> result;
   for (const unsigned int node : nodes)
     result.push_back(share[node]);
   return result;
@@ -112,12 +112,15 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
     }
 }
 
+#define SNUG_INSTANTIATE_NUMBER(dim, Number)                                      \
+  template std::vector<Number> tributary_areas(const TributaryFaces<dim> &,       \
+                                               const PointField<dim, Number> &);  \
+  template std::vector<Number> tributary_areas(const TributaryFaces<dim> &,       \
+                                               const std::vector<unsigned int> &, \
+                                               const PointField<dim, Number> &);
 #define SNUG_INSTANTIATE(dim)                                                            \
-  template std::vector<double> tributary_areas(const TributaryFaces<dim> &,              \
-                                               const mesh::Surface<dim>::Field &);       \
-  template std::vector<double> tributary_areas(const TributaryFaces<dim> &,              \
-                                               const std::vector<unsigned int> &,        \
-                                               const mesh::Surface<dim>::Field &);       \
+  SNUG_INSTANTIATE_NUMBER(dim, double)                                                   \
+  SNUG_INSTANTIATE_NUMBER(dim, Differential<1>)                                          \
   template std::vector<double> shape_integrals(const mesh::Surface<dim> &, unsigned int, \
                                                const FaceShape<dim> &,                   \
                                                const mesh::Surface<dim>::Field &);       \
@@ -128,4 +131,5 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
+#undef SNUG_INSTANTIATE_NUMBER
 } // namespace snug::faces

@@ -54,14 +54,6 @@ std::vector<double> rigidly_closed_gaps(const LoadedProblem &problem)
   return gaps;
 }
 
-/// Let the tangential rows of contacts be free where their normal rows are.
-void follow_normals(const LoadedProblem &problem, qp::RowSet &rows)
-{
-  for (const qp::FrictionCone &cone : problem.cones())
-    for (unsigned int t = 0; t < cone.n_tangents; ++t)
-      rows[cone.tangents[t]] = rows[cone.normal];
-}
-
 /// Fraction of the loads that a set may leave unbalanced.
 const double balance_tolerance = 1e-8;
 
@@ -97,7 +89,7 @@ qp::RowSet rigid_contact_rows(const LoadedProblem &problem, const qp::RowSet &ro
             result[i] = rates(i) > 0.;
             changed   = true;
           }
-      follow_normals(problem, result);
+      qp::free_tangents(problem.cones(), result);
       if (!dealii::Utilities::MPI::logical_or(changed, comm))
         break;
     }
@@ -189,7 +181,7 @@ qp::RowSet rigid_prediction(const LoadedProblem &problem, const ContactPairs &pa
       if (pair < n_pairs && (loads.force[pair] > 0. || low[pair] > loads.least[pair]))
         expected[i] = gaps[i] <= high[pair];
     }
-  follow_normals(problem, expected);
+  qp::free_tangents(problem.cones(), expected);
   return rigid_contact_rows(problem, expected);
 }
 } // namespace snug::feti

@@ -8,6 +8,14 @@ double FrictionCone::limit(const MultiVector &lambda) const
   return lambda(normal) > 0. ? coefficient * lambda(normal) + bound : 0.;
 }
 
+FrictionCone FrictionCone::acting(const MultiVector &lambda) const
+{
+  FrictionCone result = *this;
+  if (other_normal && lambda(normal) > 0. && lambda(*other_normal) > 0.)
+    result.n_tangents = n_along_both;
+  return result;
+}
+
 double FrictionCone::compliance(const std::vector<double> &diagonal) const
 {
   double largest = 0.;
@@ -24,6 +32,16 @@ std::array<double, 2> FrictionCone::trial_force(const double       compliance,
   for (unsigned int t = 0; t < n_tangents; ++t)
     x[t] = lambda(tangents[t]) + w(tangents[t]) / compliance;
   return x;
+}
+
+void free_tangents(const std::vector<FrictionCone> &cones, RowSet &rows)
+{
+  for (const FrictionCone &cone : cones)
+    for (unsigned int t = 0; t < cone.n_tangents; ++t)
+      rows[cone.tangents[t]] = 0;
+  for (const FrictionCone &cone : cones)
+    for (unsigned int t = 0; t < cone.n_free_tangents(rows); ++t)
+      rows[cone.tangents[t]] = 1;
 }
 
 FreeRows::FreeRows(RowSet rows, std::vector<Slip> slips, const bool the_transposed)

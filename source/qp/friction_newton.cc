@@ -60,11 +60,13 @@ private:
     return kkt_residual(problem, free_set->amplitudes(reduced), lambda, residual, scale);
   }
 
-  void         begin(const WarmStart &from);
-  FreeRows     rows_of(const WarmStart &from) const;
-  void         take(const FreeRows &rows);
-  FreeRows     next_rows() const;
-  void         set_friction(const FrictionCone &cone, RowSet &rows, std::vector<Slip> &slips) const;
+  void     begin(const WarmStart &from);
+  FreeRows rows_of(const WarmStart &from) const;
+  void     take(const FreeRows &rows);
+  FreeRows next_rows() const;
+  void     set_friction(const FrictionCone &cone, RowSet &rows, std::vector<Slip> &slips) const;
+  void     set_in_corner(const FrictionCone &cone, RowSet &rows, std::vector<Slip> &slips) const;
+  FrictionCone limited(FrictionCone cone) const;
   void         keep_rows();
   void         change_rows(const FreeRows &next);
   DualSolution solution() const;
@@ -136,11 +138,54 @@ void FrictionRun::take(const FreeRows &rows)
   krylov = std::make_unique<ProjectedGcr>(problem, *free_set);
 }
 
+/// Return @p cone with the limit for the next step.
+FrictionCone FrictionRun::limited(FrictionCone cone) const
+{
+  if (steps == Steps::lagging)
+    {
+      cone.bound       = cone.limit(lambda);
+      cone.coefficient = 0.;
+    }
+  return cone;
+}
+
+/// Decide whether a contact slips whose node another obstacle holds, too. Along both obstacles,
+/// their friction adds up: the contact with the larger limit takes the force up to this limit.
+void FrictionRun::set_in_corner(const FrictionCone &cone,
+                                RowSet             &rows,
+                                std::vector<Slip>  &slips) const
+{
+  for (unsigned int t = 0; t < cone.n_tangents; ++t)
+    rows[cone.tangents[t]] = 0;
+  if (cone.n_along_both == 0)
+    return;
+  const unsigned int row   = cone.tangents[0];
+  const double       own   = cone.limit(lambda);
+  double             x     = lambda(row) + w(row) / cone.compliance(problem.diagonal());
+  double             other = 0.; // limit of the other contact
+  for (const FrictionCone &of : problem.cones())
+    if (cone.other_tangent && of.normal == *cone.other_normal)
+      {
+        x += lambda(*cone.other_tangent);
+        other = of.limit(lambda);
+      }
+  const bool is_larger =
+    own > other || (own == other && !(cone.other_tangent && *cone.other_tangent < row));
+  const bool slides = std::abs(x) > other + (is_larger ? own : 0.) + negligible[row];
+  rows[row]         = is_larger && !slides;
+  if (!slides)
+    return;
+  slips.push_back({limited(cone), {{x > 0. ? 1. : -1., 0.}}, 0.});
+  slips.back().cone.n_tangents = 1;
+}
+
 /// Decide whether a closed contact sticks or slips.
 void FrictionRun::set_friction(const FrictionCone &cone,
                                RowSet             &rows,
                                std::vector<Slip>  &slips) const
 {
+  if (cone.is_cornered(rows))
+    return set_in_corner(cone, rows, slips);
   const double F      = cone.compliance(problem.diagonal());
   const double limit  = cone.limit(lambda);
   const auto   x      = cone.trial_force(F, lambda, w);
@@ -154,13 +199,7 @@ void FrictionRun::set_friction(const FrictionCone &cone,
     rows[cone.tangents[t]] = !slides;
   if (!slides)
     return;
-  FrictionCone limited = cone;
-  if (steps == Steps::lagging)
-    {
-      limited.coefficient = 0.;
-      limited.bound       = limit;
-    }
-  slips.push_back({limited,
+  slips.push_back({limited(cone),
                    {{x[0] / length, x[1] / length}},
                    F * (limit > 0. ? std::min((length - limit) / limit, largest_compliance)
                                    : largest_compliance)});

@@ -52,14 +52,30 @@ MultiVector HeldSets::given_forces(const FreeRows &rows) const
   return forces;
 }
 
+/// Return @p rows without tangential rows that may not be free.
+FreeRows HeldSets::independent(const FreeRows &rows) const
+{
+  RowSet            flags = rows.rows();
+  std::vector<Slip> slips;
+  for (const FrictionCone &cone : problem.cones())
+    for (unsigned int t = cone.n_free_tangents(flags); t < cone.n_tangents; ++t)
+      flags[cone.tangents[t]] = 0;
+  for (const Slip &slip : rows.slips())
+    if (slip.cone.n_tangents == 1 || !slip.cone.is_cornered(flags))
+      slips.push_back(slip);
+  return {flags, slips};
+}
+
 std::unique_ptr<FreeSet>
 HeldSets::balanced(FreeRows rows, const MultiVector &w, const double scale, MultiVector &lambda)
 {
+  rows          = independent(rows);
   auto free_set = problem.free_set(rows);
   bool changed  = false;
   while (change(*free_set, w, scale, lambda, rows))
     {
       changed  = true;
+      rows     = independent(rows);
       free_set = problem.free_set(rows);
     }
   repairs += changed;

@@ -39,7 +39,7 @@ void set_natural_residual(const DualProblem  &problem,
                           MultiVector        &residual)
 {
   const double F = cone.compliance(problem.diagonal()), limit = cone.limit(lambda);
-  const auto   x      = cone.trial_force(F, lambda, w);
+  const auto   x      = cone.acting(lambda).trial_force(F, lambda, w);
   const double length = std::hypot(x[0], x[1]);
   for (unsigned int t = 0; t < cone.n_tangents; ++t)
     residual(cone.tangents[t]) =
@@ -172,9 +172,7 @@ balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, doub
             rows[i] = 1;
             grows   = true;
           }
-      for (const FrictionCone &cone : problem.cones())
-        for (unsigned int t = 0; rows[cone.normal] && t < cone.n_tangents; ++t)
-          rows[cone.tangents[t]] = 1;
+      free_tangents(problem.cones(), rows);
       if (!any(grows, comm))
         throw SolveError("no equilibrium: the contacts cannot balance "
                          "the loads of a floating body");

@@ -98,12 +98,6 @@ void check_friction(const Scene &scene, const Origins &origins)
   SectionCheck("Solver", origins, scene.dimension)
     .require(scene.solver.method == "active set", "Method", scene.solver.method,
              "must be 'active set' with friction");
-  for (const auto &pair : scene.contact.pairs)
-    SectionCheck(pair.section(), origins, scene.dimension)
-      .require(scene.task == Task::state || pair.parameters.friction != contact::Friction::Tresca,
-               "Friction", to_text(pair.parameters.friction),
-               "must be none or Coulomb for gradients: they do not contain the change of a bound "
-               "with the area");
 }
 
 /// Check the targets. A search needs the error of its objective, and variables that are the same

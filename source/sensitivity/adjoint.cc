@@ -1,4 +1,5 @@
 #include <snug/base/narrow.h>
+#include <snug/sensitivity/bound_derivatives.h>
 #include <snug/sensitivity/load_steps.h>
 #include <snug/sensitivity/methods.h>
 #include <snug/sensitivity/residual_gradient.h>
@@ -103,6 +104,12 @@ private:
           auto &sum = of_slips[*before].try_emplace(places[column], feti.n_owned()).first->second;
           sum.add(1., eta);
         }
+    if (has_bounds(problem.solver, problem.state))
+      {
+        // The change of a bound acts through the response and, as a load, through w.
+        adjoint.given = right.dual;
+        adjoint.given.add(-1., feti.linearization().multiply_B(adjoint.primal));
+      }
     // eta'(g' - B'u) of this step, and slips'(B'u - g') of the next steps
     adjoint.dual.add(-1., slips);
     add_data(problem, adjoint, places, partials);

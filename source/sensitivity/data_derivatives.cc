@@ -1,4 +1,5 @@
 #include <snug/elasticity/semi_analytic.h>
+#include <snug/sensitivity/bound_derivatives.h>
 #include <snug/sensitivity/data_derivatives.h>
 
 #include <deal.II/base/mpi.h>
@@ -296,6 +297,7 @@ KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
         }
     }
   result.dual.add(-1., layout.to_owned(Bu));
+  result.given = bound_derivatives(solver, state, velocities);
   return result;
 }
 

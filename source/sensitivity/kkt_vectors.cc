@@ -9,6 +9,8 @@ qp::MultiVector products(const KktVectors &x, const KktVectors &y, MPI_Comm comm
   const auto n   = std::min(x.primal.size(), y.primal.size());
   for (unsigned int s = 0; s < n; ++s)
     sum.add(1., qp::inner_products(x.primal[s], y.primal[s], MPI_COMM_SELF));
+  if (x.given.n_columns() > 0 && y.given.n_columns() > 0)
+    sum.add(1., qp::inner_products(x.given, y.given, MPI_COMM_SELF));
   MPI_Allreduce(MPI_IN_PLACE, sum.column(0), sum.n_rows() * sum.n_columns(), MPI_DOUBLE, MPI_SUM,
                 comm);
   return sum;

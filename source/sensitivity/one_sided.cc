@@ -93,6 +93,7 @@ std::vector<OneSided> one_sided_gradients(const GradientProblem<dim> &problem,
   const unsigned int k    = problem.basis.n_variables();
   auto               both = residual_derivatives(problem);
   append_negative(both.dual);
+  append_negative(both.given);
   for (auto &part : both.primal)
     append_negative(part);
   const auto partials      = partials_of(problem, responses);

@@ -1,3 +1,4 @@
+#include <snug/sensitivity/bound_derivatives.h>
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/state/cell_gradients.h>
 #include <snug/state/contact_results.h>
@@ -77,6 +78,8 @@ void add_residual_gradient(const state::StateSolver<dim>  &solver,
   state::add_load_gradient(solver, state, w, 1., gradient);
   add_rows(solver, state, adjoint, j, gradient);
   add_held(solver, state, adjoint, j, gradient);
+  if (adjoint.given.n_columns() > 0)
+    add_bound_gradient(solver, state, adjoint.given, j, gradient);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                               \

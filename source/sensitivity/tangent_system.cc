@@ -28,23 +28,32 @@ qp::FreeRows strong_rows(const state::StateSolver<dim>  &solver,
       rows[i] = state.contact[of_contact[i]].strong;
   auto w = feti.linearization().multiply_B(state.u);
   w.add(-1., feti.g());
+  const auto slides = [&](const qp::FrictionCone &cone) {
+    return state.contact[of_contact[cone.normal]].friction == state::FrictionStatus::slip;
+  };
+  std::vector<qp::FrictionCone> sticking;
+  std::copy_if(feti.cones().begin(), feti.cones().end(), std::back_inserter(sticking),
+               [&](const auto &cone) { return !slides(cone); });
+  for (const qp::FrictionCone &cone : feti.cones())
+    for (unsigned int t = 0; t < cone.n_tangents; ++t)
+      rows[cone.tangents[t]] = 0;
+  qp::free_tangents(sticking, rows);
   for (const qp::FrictionCone &cone : feti.cones())
     {
-      const bool slides =
-        state.contact[of_contact[cone.normal]].friction == state::FrictionStatus::slip;
-      for (unsigned int t = 0; t < cone.n_tangents; ++t)
-        rows[cone.tangents[t]] = rows[cone.normal] && !slides;
-      if (!rows[cone.normal] || !slides)
+      if (!rows[cone.normal] || !slides(cone))
         continue;
+      qp::Slip of_cone{cone};
+      if (cone.is_cornered(rows))
+        of_cone.cone.n_tangents = 1;
       double slip = 0., force = 0.;
-      for (unsigned int t = 0; t < cone.n_tangents; ++t)
+      for (unsigned int t = 0; t < of_cone.cone.n_tangents; ++t)
         {
           slip  = std::hypot(slip, w(cone.tangents[t]));
           force = std::hypot(force, state.dual.lambda(cone.tangents[t]));
         }
-      qp::Slip of_cone{cone, {}, slip / cone.limit(state.dual.lambda)};
+      of_cone.compliance = slip / cone.limit(state.dual.lambda);
       // The friction force is better known than the slip, which may be short.
-      for (unsigned int t = 0; t < cone.n_tangents; ++t)
+      for (unsigned int t = 0; t < of_cone.cone.n_tangents; ++t)
         of_cone.direction[t] = state.dual.lambda(cone.tangents[t]) / force;
       slips.push_back(of_cone);
     }
@@ -129,6 +138,17 @@ qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_
 
 KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
 {
+  if (right_hand_sides.given.n_columns() > 0)
+    {
+      auto       others = right_hand_sides;
+      const auto forces = feti.linearization().multiply_Bt(others.given);
+      for (unsigned int s = 0; s < forces.size(); ++s)
+        others.primal[s].add(-1., forces[s]);
+      others.given = qp::MultiVector(0, 0);
+      auto result  = solve(others);
+      result.dual.add(1., right_hand_sides.given);
+      return result;
+    }
   const auto &b = right_hand_sides.primal;
   KktVectors  result;
   result.dual = qp::MultiVector(feti.n_owned(), right_hand_sides.dual.n_columns());

@@ -145,9 +145,10 @@ void certify_friction(const feti::LoadedProblem &feti,
 {
   double largest[3] = {0., 0., 0.}; // excess of forces, |s| (b - |lambda_T|), b
   double missing    = 0.;
-  for (const qp::FrictionCone &cone : feti.cones())
+  for (const qp::FrictionCone &full : feti.cones())
     {
-      double force = 0., slip = 0., work = 0.;
+      const auto cone  = full.acting(lambda);
+      double     force = 0., slip = 0., work = 0.;
       for (unsigned int t = 0; t < cone.n_tangents; ++t)
         {
           const unsigned int row = cone.tangents[t];

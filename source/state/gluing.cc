@@ -72,7 +72,17 @@ std::vector<qp::FrictionCone> Gluing<dim>::cones(const contact::Contact<dim> &co
       cone.coefficient                 = law.coefficient;
       cone.bound                       = law.bound * areas[normal] * rows.scales[normal];
       cone.tangents[cone.n_tangents++] = tangent->second;
+      if (const auto &other = contact.other_obstacle(normal))
+        {
+          // The rows of a node have one owner.
+          cone.other_normal = owned_of.at(other->row);
+          cone.n_along_both = other->shares_first_tangent;
+        }
     }
+  for (auto &[row, cone] : cone_of)
+    if (const auto &other = contact.other_obstacle(row); other && cone_of.count(other->row) > 0)
+      if (const auto &of_other = cone_of.at(other->row); of_other.n_along_both > 0)
+        cone.other_tangent = of_other.tangents[0];
   std::vector<qp::FrictionCone> result;
   for (const auto &[row, cone] : cone_of)
     result.push_back(cone);

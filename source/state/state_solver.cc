@@ -97,9 +97,7 @@ qp::WarmStart StateSolver<dim>::scaled_start(const std::vector<ContactState<dim>
       const auto   &dual = states.at(*after).dual;
       qp::WarmStart start{dual.lambda, dual.active};
       // A slip that turns round would first slip the wrong way.
-      for (const qp::FrictionCone &cone : problem->of(load_case).cones)
-        for (unsigned int t = 0; t < cone.n_tangents; ++t)
-          start.active[cone.tangents[t]] = start.active[cone.normal];
+      qp::free_tangents(problem->of(load_case).cones, start.active);
       return start;
     }
   for (auto other = states.rbegin(); other != states.rend(); ++other)

@@ -108,8 +108,6 @@ def input_cases(body, slave, master):
               ["0 or above"], friction),
         wrong("friction without its solver", "Solver/Method", "SMALSE-M",
               ["active set", "friction"], {**friction, "Contact/Friction coefficient": "0.1"}),
-        wrong("gradients with a bound of friction", "Contact/Friction", "Tresca",
-              ["Coulomb", "gradients"], {**shape, "Contact/Friction bound": "1"}),
         wrong("zero cells", own + "Box cells", "0, 2, 2"),
         wrong("disc in 3D", own + "Mesh", "disc", ["Dimension = 2"]),
         wrong("hole larger than the ring", own + "Inner radius", "2",

@@ -51,6 +51,13 @@ struct Tangent
   unsigned int index; ///< of the direction in the row's frame, see tangent_direction()
 };
 
+/// Contact of the slave node of a row with another obstacle.
+struct OtherObstacle
+{
+  unsigned int row;                  ///< its contact row
+  bool         shares_first_tangent; ///< the first tangent is along both obstacles, in 3D
+};
+
 /// Forces of all contact rows.
 template <int dim>
 struct ContactForces
@@ -136,6 +143,7 @@ public:
                                            const Field              &displacement,
                                            const ContactForces<dim> &forces) const;
   std::vector<double> areas(const Field &positions) const;
+  std::vector<double> area_derivatives(const Field &positions, const Field &velocity) const;
   /// Return d/dX sum_i factors_i areas_i for the factors of all rows.
   Field area_gradient(const Field &positions, const std::vector<double> &factors) const;
 
@@ -147,9 +155,12 @@ public:
   const RowFriction &friction(unsigned int i) const { return frictions[i]; }
   /// Return the places of all tangential rows, ascending by contact row. A row with friction has
   /// tangential rows, up to dim - 1, in the directions in which the supports let the slave node or
-  /// the face opposite to it move. Against an obstacle, a tangential row must also be independent
-  /// of the normal row where the supports let the slave node move.
+  /// the face opposite to it move; none at a node of three obstacles. Against an obstacle, a
+  /// tangential row must also be independent of the normal row where the supports let the slave
+  /// node move.
   const std::vector<Tangent> &tangents() const { return tangent_places; }
+  /// Return the contact of the slave node of row @p i with another obstacle; none for bodies.
+  const std::optional<OtherObstacle> &other_obstacle(unsigned int i) const { return others[i]; }
   /// Return whether there are tangential rows.
   bool has_friction() const { return !tangent_places.empty(); }
   /// Return the directions in space of the tangential rows, from the rows() at any positions.
@@ -222,10 +233,11 @@ private:
   Field                            paired_offsets; ///< one per row, at the pairing
   std::vector<PairedGaps>          gaps;           ///< one per pair, at the pairing
   /// nodes of each row, in the order of the coefficients
-  std::vector<std::vector<unsigned int>> row_nodes;
-  std::vector<RowFriction>               frictions; ///< one per row
-  std::vector<TangentFrame<dim>>         frames;    ///< one per row; used if it has friction
-  std::vector<Tangent>                   tangent_places;
+  std::vector<std::vector<unsigned int>>    row_nodes;
+  std::vector<RowFriction>                  frictions; ///< one per row
+  std::vector<TangentFrame<dim>>            frames;    ///< one per row; used if it has friction
+  std::vector<std::optional<OtherObstacle>> others;    ///< one per row
+  std::vector<Tangent>                      tangent_places;
 
   PairGeometry<dim>      geometry(unsigned int                      p,
                                   const Field                      &positions,

@@ -47,6 +47,8 @@ public:
                                                 const std::vector<RowSlopes<dim>> &slopes,
                                                 Field                             &gradient) const override;
   std::vector<double>              areas(const Field &positions) const override;
+  std::vector<double>              area_derivatives(const Field &positions,
+                                                    const Field &velocity) const override;
   void                             add_area_gradient(const Field               &positions,
                                                      const std::vector<double> &factors,
                                                      Field                     &gradient) const override;

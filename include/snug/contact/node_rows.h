@@ -97,7 +97,13 @@ public:
   /// force of a row divided by its area is a mean pressure around its node.
   std::vector<double> areas(const Field &positions) const override
   {
-    return faces::tributary_areas<dim>({surface, sides.slave, shape}, nodes.with_rows, positions);
+    return tributary_areas(faces::PointField<dim, double>(positions));
+  }
+
+  std::vector<double> area_derivatives(const Field &positions, const Field &velocity) const override
+  {
+    return slopes_of(
+      tributary_areas(faces::PointField<dim, faces::Differential<1>>(positions, velocity)));
   }
 
   void add_area_gradient(const Field               &positions,
@@ -115,6 +121,12 @@ private:
   faces::HeldDirections<dim>   held;
   Formula                      formula;
   const SlaveNodes            &nodes;
+
+  template <typename Number>
+  std::vector<Number> tributary_areas(const faces::PointField<dim, Number> &x) const
+  {
+    return faces::tributary_areas<dim>({surface, sides.slave, shape}, nodes.with_rows, x);
+  }
 
   faces::NodalNormals<dim> master_normals(const Field &positions) const
   {

@@ -5,6 +5,9 @@
 #include <snug/faces/recording.h>
 
 namespace snug::contact {
+/// Return the derivatives alone.
+std::vector<double> slopes_of(const std::vector<faces::Differential<1>> &numbers);
+
 /// Return the derivatives of coefficients, gap and normal.
 template <int dim>
 Row<dim> derivative_of(const Row<dim, faces::Differential<1>> &row);

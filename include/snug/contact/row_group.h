@@ -83,6 +83,10 @@ public:
   /// Return the tributary slave area of each row [length^2]; force / area is a pressure.
   virtual std::vector<double> areas(const Field &positions) const = 0;
 
+  /// Return the derivatives of the areas along @p velocity.
+  virtual std::vector<double> area_derivatives(const Field &positions,
+                                               const Field &velocity) const = 0;
+
   /// Add gradient_a += d/dX_a sum_i factors_i areas_i. Hanging nodes count as independent
   /// positions.
   virtual void add_area_gradient(const Field               &positions,

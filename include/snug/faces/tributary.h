@@ -29,17 +29,18 @@ bool is_without_area(const mesh::Surface<dim>     &surface,
  * Return the tributary area of each surface node over some faces at @p positions [length^2]. The
  * area is the integral of the shape function of the node with the weight of the idealization
  * (thickness, circumference). Hanging nodes give their share to their masters and keep it, too.
- * Therefore only the sum over nodes that do not hang is the area of the faces.
+ * Therefore only the sum over nodes that do not hang is the area of the faces. Number is double or
+ * Differential<1>.
  */
-template <int dim>
-std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
-                                    const typename mesh::Surface<dim>::Field &positions);
+template <int dim, typename Number>
+std::vector<Number> tributary_areas(const TributaryFaces<dim>     &of,
+                                    const PointField<dim, Number> &positions);
 
 /// Return the tributary areas of @p nodes alone.
-template <int dim>
-std::vector<double> tributary_areas(const TributaryFaces<dim>                &of,
-                                    const std::vector<unsigned int>          &nodes,
-                                    const typename mesh::Surface<dim>::Field &positions);
+template <int dim, typename Number>
+std::vector<Number> tributary_areas(const TributaryFaces<dim>       &of,
+                                    const std::vector<unsigned int> &nodes,
+                                    const PointField<dim, Number>   &positions);
 
 /// Return the integrals of the shape functions of the nodes of a @p face, a surface index, with
 /// the weight of the idealization [length^2].

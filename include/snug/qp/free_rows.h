@@ -4,6 +4,7 @@
 #include <snug/qp/multi_vector.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace snug::qp {
@@ -24,6 +25,31 @@ struct FrictionCone
   unsigned int                n_tangents  = 0;  ///< 1 or 2
   double                      coefficient = 0.; ///< mu
   double                      bound       = 0.; ///< beta [force]
+  /// Owned row of lambda_N of another rigid obstacle at the same node. While both contacts are
+  /// closed, they hold the node, and friction acts along both obstacles only.
+  std::optional<unsigned int> other_normal = {};
+  /// number of tangential rows along both obstacles, 0 or 1, which come first
+  unsigned int n_along_both = 0;
+  /// owned tangential row of the other contact along both obstacles, if that has friction
+  std::optional<unsigned int> other_tangent = {};
+
+  /// Return whether this contact and the other one at its node are closed on a set.
+  bool is_cornered(const RowSet &rows) const
+  {
+    return other_normal && rows[normal] && rows[*other_normal];
+  }
+  /// Return this cone with the tangential rows in which friction acts for the multipliers @p
+  /// lambda.
+  FrictionCone acting(const MultiVector &lambda) const;
+  /// Return how many tangential rows may be free on a set. The normal rows of two obstacles at a
+  /// node and all tangential rows would depend on each other, as would the tangential rows of both
+  /// contacts along both obstacles.
+  unsigned int n_free_tangents(const RowSet &rows) const
+  {
+    if (!is_cornered(rows))
+      return rows[normal] ? n_tangents : 0;
+    return other_tangent && rows[*other_tangent] ? 0 : n_along_both;
+  }
 
   /// Return b for the multipliers @p lambda; 0 where lambda_N is not positive.
   double limit(const MultiVector &lambda) const;
@@ -34,6 +60,9 @@ struct FrictionCone
   std::array<double, 2>
   trial_force(double compliance, const MultiVector &lambda, const MultiVector &w) const;
 };
+
+/// Let all tangential rows be free that may be free, see FrictionCone::n_free_tangents().
+void free_tangents(const std::vector<FrictionCone> &cones, RowSet &rows);
 
 /// A closed contact that slips along the unit vector n^ of its tangential rows.
 struct Slip

@@ -58,6 +58,7 @@ private:
                                      const FreeRows    &rows) const;
   void        hold_slips(const std::vector<MovedSlip> &all, double missing, FreeRows &rows);
   bool        close(const MultiVector &rates, FreeRows &rows) const;
+  FreeRows    independent(const FreeRows &rows) const;
   MultiVector given_forces(const FreeRows &rows) const;
 
   const DualProblem &problem;

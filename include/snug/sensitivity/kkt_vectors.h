@@ -13,9 +13,12 @@ struct KktVectors
 {
   feti::PrimalVectors primal; ///< per subdomain of this rank
   qp::MultiVector     dual;   ///< owned rows
+  /// Owned rows; of derivatives: the given parts of the multipliers, see bound_derivatives(). No
+  /// columns: zero
+  qp::MultiVector     given = qp::MultiVector(0, 0);
 };
 
-/// Return x'y summed over ranks (x columns x y columns). Collective.
+/// Return x'y, the sum over all three parts, summed over ranks (x columns x y columns). Collective.
 qp::MultiVector products(const KktVectors &x, const KktVectors &y, MPI_Comm comm);
 
 /// Add row @p i of @p products to @p values.

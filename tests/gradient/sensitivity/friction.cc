@@ -1,3 +1,5 @@
+#include <snug/sensitivity/tangent_system.h>
+
 #include <gradient/sensitivity/check_responses.h>
 
 namespace {
@@ -48,6 +50,9 @@ TestScene<dim> pushed_punch(unsigned int               n_cells,
 /// Contacts change between stick and slip at larger steps.
 const double small_step = 2e-5;
 
+/// Errors of the states add up over the steps.
+const double steps_tolerance = 5. * method_tolerance;
+
 const std::vector<double> path = {1., 1.4, 0.4, -1.2, -0.3};
 
 template <int dim>
@@ -82,6 +87,49 @@ TEST(FrictionGradient, Mortar3D)
 {
   auto scene            = pushed_punch<3>(6, contact::Method::mortar);
   scene.bodies[0].cells = {5, 5, 5};
+  check(scene);
+}
+
+/// Derivatives at fixed limits of the friction forces, as under the Tresca law, are wrong.
+TEST(FrictionGradient, LimitsFollowTheNormalForces)
+{
+  GradientScene<2>                      scene(pushed_punch<2>(12, contact::Method::nodal), 0.05);
+  const auto                            state = scene.solve(scene.design);
+  const sensitivity::GradientParameters parameters;
+  const auto                            problem = scene.at(state, parameters);
+  const auto rows  = sensitivity::strong_rows(scene.problem.solver, state);
+  auto       slips = rows.slips();
+  for (auto &slip : slips)
+    slip.cone.coefficient = 0.;
+  const auto direction   = test_directions(scene.basis->n_variables()).front();
+  const auto derivatives = [&](const qp::FreeRows &of_rows) {
+    return nodal(scene.problem,
+                 sensitivity::TangentSystem(scene.problem.solver.feti(state), of_rows,
+                                            scene.problem.solver.model().solver,
+                                            sensitivity::Solves::block, state.dual.directions)
+                   .solve(sensitivity::residual_derivatives(problem)),
+                 direction);
+  };
+  const auto following = derivatives(rows), frozen = derivatives({rows.rows(), slips});
+  const auto exact = scene.differences(direction, small_step).displacement;
+  EXPECT_LT(field_error(scene.problem, following, exact), direct_tolerance);
+  EXPECT_GT(field_error(scene.problem, frozen, exact), 1e-3);
+}
+
+/// The bounds change with the areas of the contacts.
+template <int dim>
+TestScene<dim> with_bound(TestScene<dim> scene, const std::string &bound)
+{
+  scene.friction       = contact::Friction::Tresca;
+  scene.friction_value = bound;
+  return scene;
+}
+
+TEST(FrictionGradient, Bound)
+{
+  check(with_bound(pushed_punch<2>(12, contact::Method::nodal), "2+3*x"));
+  auto scene            = with_bound(pushed_punch<3>(5, contact::Method::mortar), "1+2*x");
+  scene.bodies[0].cells = {4, 4, 4};
   check(scene);
 }
 
@@ -142,7 +190,7 @@ void check_steps(const TestScene<dim> &given)
       {
         SCOPED_TRACE(name + " of step " + std::to_string(step));
         const auto &gradient = by_adjoint[i].values;
-        EXPECT_LT(relative_error(gradient, by_direct[i].values), method_tolerance);
+        EXPECT_LT(relative_error(gradient, by_direct[i].values), steps_tolerance);
         EXPECT_LT(std::abs(dot(gradient, direction) - exact[i]) /
                     (norm(gradient) * norm(direction)),
                   direct_tolerance);
@@ -153,6 +201,11 @@ void check_steps(const TestScene<dim> &given)
 TEST(FrictionGradient, Steps2D)
 {
   check_steps(pushed_punch<2>(12, contact::Method::nodal, path));
+}
+
+TEST(FrictionGradient, StepsOfBound)
+{
+  check_steps(with_bound(pushed_punch<2>(12, contact::Method::nodal, path), "2"));
 }
 
 TEST(FrictionGradient, StepsMortar3D)

@@ -27,9 +27,11 @@ double weighted_area(const BoxTop<dim>                 &box,
                      double                             h,
                      const typename BoxTop<dim>::Field &velocity)
 {
-  const auto areas = tributary_areas<dim>({box.surface, box.faces, box.shape},
-                                          nodes_that_do_not_hang(box), box.moved(h, velocity));
-  double     sum   = 0.;
+  const auto positions = box.moved(h, velocity);
+  const auto areas =
+    tributary_areas<dim>({box.surface, box.faces, box.shape}, nodes_that_do_not_hang(box),
+                         faces::PointField<dim, double>(positions));
+  double sum = 0.;
   for (unsigned int i = 0; i < areas.size(); ++i)
     sum += factors[i] * areas[i];
   return sum;

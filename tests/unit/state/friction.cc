@@ -247,18 +247,113 @@ TEST(StateFriction, BalancedBodiesHoldAcrossAGap)
     }
 }
 
-/// The same state by other subdomains, with the bodies in another order and turned.
-TEST(StateFriction, DoesNotDependOnSubdomains)
+/// The same state by other subdomains, with the bodies in another order and the axes along the
+/// contact exchanged, which turns the tangents.
+TEST(StateFriction, DoesNotDependOnSubdomainsOrderAndAxes)
 {
-  auto   scene = pushed_block<3>(0.7);
-  double first = 0.;
-  for (const unsigned int n : {2u, 6u, 16u})
+  auto scene = pushed_block<3>(0.7);
+  // Contacts at the edges slip.
+  scene.bodies[0].material.poissons_ratio = 0.45;
+  scene.bodies[0].radius                  = 20.;
+  const auto reference                    = Problem<3>(scene).solve();
+  EXPECT_GT(reference.slipping_contacts, 0u);
+  EXPECT_LT(reference.slipping_contacts, reference.active_contacts);
+  const auto expect_same = [&](const TestScene<3> &other) {
+    const auto state = Problem<3>(other).solve();
+    EXPECT_EQ(state.slipping_contacts, reference.slipping_contacts);
+    EXPECT_NEAR(state.dissipation, reference.dissipation, 1e-9 * reference.dissipation);
+    EXPECT_NEAR(state.strain_energy, reference.strain_energy, 1e-9 * reference.strain_energy);
+    EXPECT_NEAR(state.max_pressure, reference.max_pressure, 1e-8 * reference.max_pressure);
+  };
+  for (const unsigned int n : {2u, 16u})
     {
-      scene.subdomains = n;
-      Problem<3> problem(scene);
-      const auto state = problem.solve();
-      if (first == 0.)
-        first = state.dissipation;
-      EXPECT_NEAR(state.dissipation, first, 1e-7 * first);
+      auto other       = scene;
+      other.subdomains = n;
+      expect_same(other);
     }
+  auto reordered = scene;
+  std::swap(reordered.bodies[0], reordered.bodies[1]);
+  reordered.pairs                 = {{{1, face_index(2, 0)}, {0, face_index(2, 1)}}};
+  auto &parameters                = reordered.pairs[0].parameters;
+  parameters.slave                = contact::Slave::first;
+  parameters.method               = scene.method;
+  parameters.friction             = scene.friction;
+  parameters.friction_coefficient = scene.friction_value;
+  expect_same(reordered);
+  auto  turned = scene;
+  auto &load   = turned.bodies[0].loads[face_index(2, 1)].traction;
+  std::swap(load[0], load[1]);
+  expect_same(turned);
+}
+
+/// A block in the edge of two obstacles: both hold the nodes on the edge, and the friction of both
+/// adds up along it.
+TEST(StateFriction, TwoObstaclesHoldANode)
+{
+  TestScene<3> scene;
+  scene.bodies.resize(1);
+  auto &block = scene.bodies[0];
+  for (unsigned int d = 0; d < 3; ++d)
+    block.size[d] = 1.;
+  block.cells                            = {4, 4, 4};
+  block.loads[face_index(2, 1)].pressure = 3.;
+  block.loads[face_index(0, 1)].pressure = 2.;
+  for (const unsigned int axis : {2u, 0u})
+    {
+      contact::Pair pair;
+      pair.slave      = {0, face_index(axis, 0)};
+      pair.slave_name = axis == 2 ? "block.bottom" : "block.left";
+      pair.obstacle.emplace();
+      pair.obstacle->name                  = axis == 2 ? "floor" : "wall";
+      pair.obstacle->point                 = {0., 0., 0.};
+      pair.obstacle->normal                = {axis == 0 ? 1. : 0., 0., axis == 2 ? 1. : 0.};
+      pair.obstacle->displacement          = {0., 0., 0.};
+      pair.parameters.friction             = contact::Friction::Coulomb;
+      pair.parameters.friction_coefficient = axis == 2 ? "0.3" : "0.2";
+      scene.pairs.push_back(pair);
+    }
+  const auto push = [&](const double part) {
+    block.loads[face_index(2, 1)].traction[1] = part * 0.3 * 3.;
+    block.loads[face_index(0, 1)].traction[1] = part * 0.2 * 2.;
+    return Problem<3>(scene).solve();
+  };
+  for (const double part : {0.3, 0.9, 0.999})
+    {
+      const auto state = push(part);
+      EXPECT_LE(state.certificate.worst(), 1e-10) << part;
+      double along = 0.;
+      for (const auto &point : state.contact)
+        along += point.shear[1];
+      EXPECT_NEAR(std::abs(along), part * 1.3, 1e-8);
+    }
+  EXPECT_THROW(push(1.001), SolveError);
+}
+
+/// The supports hold the nodes at the sides of the punch, and there are fewer nodes of the
+/// foundation opposite to them.
+TEST(StateFriction, SupportsHoldMoreSlavesThanMastersAreOpposite)
+{
+  for (const auto method : {contact::Method::nodal, contact::Method::mortar})
+    {
+      auto scene           = two_blocks<3>(6, 2, 0.);
+      scene.method         = method;
+      scene.friction       = contact::Friction::Coulomb;
+      scene.friction_value = "0.3";
+      const auto state     = Problem<3>(scene).solve();
+      EXPECT_LE(state.certificate.worst(), 1e-10);
+    }
+}
+
+/// A block spreads on a plane, and all contacts slip: one must stick, as nothing else holds it.
+TEST(StateFriction, AllSlipWithoutShear)
+{
+  auto scene                              = pushed_block<2>(0.);
+  scene.friction_value                    = "0.01";
+  scene.bodies[0].cells                   = {5, 3};
+  scene.bodies[0].material.poissons_ratio = 0.45;
+  scene.bodies[1].material.youngs_modulus = 1e8;
+  const auto state                        = Problem<2>(scene).solve();
+  EXPECT_LE(state.certificate.worst(), 1e-10);
+  EXPECT_GE(state.slipping_contacts + 2, state.active_contacts);
+  EXPECT_NEAR(state.contact_force[0], 0., 1e-8);
 }

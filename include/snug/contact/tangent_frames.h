@@ -1,0 +1,43 @@
+#ifndef snug_contact_tangent_frames_h
+#define snug_contact_tangent_frames_h
+
+#include <snug/contact/nearest_face.h>
+#include <snug/contact/pair_geometry.h>
+#include <snug/contact/tangent_row.h>
+
+#include <optional>
+
+namespace snug::contact {
+/// This class makes the frames of the tangential rows of one pair.
+template <int dim>
+class TangentFrames
+{
+public:
+  explicit TangentFrames(PairGeometry<dim> geometry);
+
+  /// Return which of the @p rows have tangents in directions that supports of their slave nodes
+  /// hold. Such a tangential row consists of nodes of the master only, and more rows than nodes
+  /// would depend on each other. So each node of the master serves the row with the largest
+  /// coefficient there.
+  std::vector<bool> rely_on_master(const std::vector<unsigned int> &slaves,
+                                   const Row<dim>                  *rows) const;
+
+  /// Return the frame of the contact row of a @p slave node and the number of its tangents.
+  std::pair<TangentFrame<dim>, unsigned int>
+  frame(unsigned int slave, const Row<dim> &row, bool relies_on_master) const;
+
+private:
+  const PairGeometry<dim>         pair;
+  std::optional<NearestFace<dim>> nearest; ///< none for obstacles
+  std::vector<bool>               on_master;
+
+  void                   set_masters(const Row<dim>                  &row,
+                                     const std::vector<unsigned int> &of_face,
+                                     TangentFrame<dim>               &frame) const;
+  dealii::Tensor<2, dim> movable_directions(unsigned int                     slave,
+                                            const std::vector<unsigned int> &opposite,
+                                            const dealii::Tensor<1, dim>    &normal) const;
+};
+} // namespace snug::contact
+
+#endif

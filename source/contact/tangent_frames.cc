@@ -1,0 +1,189 @@
+#include <snug/contact/tangent_frames.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace snug::contact {
+namespace {
+/// Sine of the angle up to which a direction counts as held or as tangential.
+const double least_angle = 1e-6;
+
+/// Shape functions below this value do not count at a point of a face.
+const double least_shape_function = 1e-6;
+
+/// Return those of the @p nodes of a face that have a shape function above @p least, ascending and
+/// with hanging nodes replaced by their masters.
+template <int dim>
+std::vector<unsigned int> nodes_above(const double                     least,
+                                      const std::vector<double>       &shape_functions,
+                                      const std::vector<unsigned int> &nodes,
+                                      const mesh::Surface<dim>        &surface)
+{
+  std::set<unsigned int> result;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    if (std::abs(shape_functions[k]) > least)
+      {
+        if (surface.masters(nodes[k]).empty())
+          result.insert(nodes[k]);
+        for (const auto &master : surface.masters(nodes[k]))
+          result.insert(master.first);
+      }
+  return {result.begin(), result.end()};
+}
+
+/// Return the projection to the directions that @p held leaves free.
+template <int dim>
+dealii::Tensor<2, dim> free_directions(const std::vector<dealii::Tensor<1, dim>> &held)
+{
+  dealii::Tensor<2, dim> result = dealii::unit_symmetric_tensor<dim>();
+  for (const auto &q : held)
+    result -= outer_product(q, q);
+  return result;
+}
+
+/// Return the number of eigenvalues of a positive semidefinite @p matrix of rank dim - 1 or less
+/// that are not round-off.
+template <int dim>
+unsigned int rank_of(const dealii::Tensor<2, dim> &matrix)
+{
+  const double least = least_angle * least_angle, sum = trace(matrix);
+  if (!(sum > least))
+    return 0;
+  // In 3D, the sum of the products of two eigenvalues is that of the two largest ones.
+  const double product = 0.5 * (sum * sum - trace(matrix * matrix));
+  return dim == 3 && product > least * sum ? 2 : 1;
+}
+
+/// Return the direction of the largest column of a positive semidefinite matrix, the first of equal
+/// ones.
+template <int dim>
+dealii::Tensor<1, dim> largest_column(const dealii::Tensor<2, dim> &matrix)
+{
+  unsigned int largest = 0;
+  for (int d = 1; d < dim; ++d)
+    if (matrix[d][d] > matrix[largest][largest] * (1. + 1e-6))
+      largest = d;
+  return matrix[largest] / matrix[largest].norm();
+}
+
+} // namespace
+
+template <int dim>
+TangentFrames<dim>::TangentFrames(PairGeometry<dim> geometry)
+  : pair(std::move(geometry)), on_master(pair.surface.n_nodes(), false)
+{
+  if (pair.pair.obstacle)
+    return;
+  nearest.emplace(pair.surface, pair.sides.master, pair.shape, pair.positions);
+  for (const unsigned int face : pair.sides.master)
+    for (const unsigned int node : pair.surface.faces()[face].nodes)
+      {
+        on_master[node] = true;
+        for (const auto &master : pair.surface.masters(node))
+          on_master[master.first] = true;
+      }
+}
+
+template <int dim>
+std::vector<bool> TangentFrames<dim>::rely_on_master(const std::vector<unsigned int> &slaves,
+                                                     const Row<dim>                  *rows) const
+{
+  struct Choice
+  {
+    double       coefficient;
+    unsigned int row, node;
+  };
+  std::vector<Choice> choices;
+  for (unsigned int i = 0; i < slaves.size(); ++i)
+    {
+      Choice best{0., i, 0};
+      for (const auto &[node, c] : rows[i].coefficients)
+        if (on_master[node] && std::abs(c * rows[i].normal) > best.coefficient)
+          best = {std::abs(c * rows[i].normal), i, node};
+      if (!pair.held[slaves[i]].empty() && best.coefficient > 0.)
+        choices.push_back(best);
+    }
+  std::stable_sort(choices.begin(), choices.end(),
+                   [](const auto &a, const auto &b) { return a.coefficient > b.coefficient; });
+  std::vector<bool> result(slaves.size(), false), serves(pair.surface.n_nodes(), false);
+  for (const Choice &choice : choices)
+    {
+      result[choice.row]  = !serves[choice.node];
+      serves[choice.node] = true;
+    }
+  return result;
+}
+
+template <int dim>
+std::pair<TangentFrame<dim>, unsigned int>
+TangentFrames<dim>::frame(const unsigned int slave,
+                          const Row<dim>    &row,
+                          const bool         relies_on_master) const
+{
+  std::vector<unsigned int> at_foot, of_face;
+  if (nearest)
+    {
+      const auto  found = nearest->closest(pair.positions[slave]);
+      const auto &nodes = pair.surface.faces()[found.face].nodes;
+      const auto  shape = pair.shape.at(found.point.xi).value;
+      if (relies_on_master)
+        at_foot = nodes_above(least_shape_function, shape, nodes, pair.surface);
+      of_face = nodes_above(-1., shape, nodes, pair.surface);
+    }
+  const auto tangential = free_directions<dim>({row.normal});
+  const auto movable    = tangential * movable_directions(slave, at_foot, row.normal) * tangential;
+  const unsigned int n_tangents = rank_of(movable);
+  TangentFrame<dim>  result;
+  // If only one direction of the tangent plane is free, it is the first tangent.
+  result.reference = largest_column(dim == 3 && n_tangents == 1 ? movable : tangential);
+  if (pair.pair.obstacle)
+    result.displacement = pair.obstacle_displacement();
+  // In axisymmetric sections, rotations are no rigid motions.
+  else if (!pair.surface.idealization().is_axisymmetric())
+    set_masters(row, of_face, result);
+  return {result, n_tangents};
+}
+
+/// Choose the nodes for the couple: those of the row on the master, or those of the face opposite
+/// to the slave node where the former do not spread in all tangential directions, as at nodes
+/// that match.
+template <int dim>
+void TangentFrames<dim>::set_masters(const Row<dim>                  &row,
+                                     const std::vector<unsigned int> &of_face,
+                                     TangentFrame<dim>               &frame) const
+{
+  for (const auto &coefficient : row.coefficients)
+    if (on_master[coefficient.first])
+      frame.masters.push_back(coefficient.first);
+  frame.spread = tangential_spread(row.normal, frame, pair.positions);
+  if (frame.spread == dim - 1)
+    return;
+  frame.masters = of_face;
+  frame.spread  = tangential_spread(row.normal, frame, pair.positions);
+}
+
+/// Return a matrix that is zero in the directions that the slave node and the nodes of the master
+/// opposite to it hold.
+template <int dim>
+dealii::Tensor<2, dim>
+TangentFrames<dim>::movable_directions(const unsigned int               slave,
+                                       const std::vector<unsigned int> &opposite,
+                                       const dealii::Tensor<1, dim>    &normal) const
+{
+  auto result = free_directions<dim>(pair.held[slave]);
+  for (const unsigned int node : opposite)
+    result += free_directions<dim>(pair.held[node]);
+  const dealii::Tensor<1, dim> free_normal = result * normal;
+  // The normal row resists the motion along the free part of the normal, which is not along the
+  // normal where the slave node is held in a direction at an angle to it.
+  if (!nearest && free_normal.norm() > least_angle)
+    result -= outer_product(free_normal, free_normal) / free_normal.norm_square();
+  return result;
+}
+
+template class TangentFrames<2>;
+template class TangentFrames<3>;
+} // namespace snug::contact
