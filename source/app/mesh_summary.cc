@@ -69,8 +69,9 @@ double area_of(const mesh::BodyMesh<dim> &mesh, const mesh::Surface<dim> &surfac
     faces.push_back(f);
   const faces::FaceShape<dim> shape(mesh.degree());
   const auto                  positions = surface.gather(mesh.reference_positions());
-  const auto areas = faces::tributary_areas<dim>({surface, faces, shape}, faces::PointField<dim, double>(positions));
-  double     sum   = 0.;
+  const auto                  areas =
+    faces::tributary_areas<dim>({surface, faces, shape}, faces::PointField<dim, double>(positions));
+  double sum = 0.;
   for (unsigned int node = 0; node < areas.size(); ++node)
     if (surface.masters(node).empty())
       sum += areas[node];

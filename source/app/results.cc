@@ -178,32 +178,6 @@ void Results<dim>::warn_of_weak_contacts(const States &states, const std::string
 }
 
 template <int dim>
-void Results<dim>::draw(const double                  time,
-                        const States                 &states,
-                        const std::optional<Field>   &gradient,
-                        const std::vector<MeshError> &errors)
-{
-  const RunContext::Timer timer(problem->context, "output");
-  // the last design may be one that was asked for already
-  if (time > 0. && time == drawn)
-    return;
-  drawn              = time;
-  const auto &solver = *problem->solver;
-  for (unsigned int c = 0; c < states.size(); ++c)
-    {
-      pictures[c].fields.write({*problem->mesh, problem->tearing, solver.model().bodies,
-                                solver.model().load_cases[c].position},
-                               time, states[c], gradient ? &*gradient : nullptr,
-                               errors.empty() ? nullptr : &errors[c].energy.cells);
-      const auto &contact = solver.contact(c);
-      pictures[c].contact.write({*problem->mesh, solver.surface(), contact.joined_pairs(),
-                                 contact.places(), contact.dependent_multipliers(),
-                                 contact.placed_surface()},
-                                time, states[c]);
-    }
-}
-
-template <int dim>
 std::vector<std::pair<std::string, double>>
 Results<dim>::response_values(const state::ContactState<dim> &state) const
 {

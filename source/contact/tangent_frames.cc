@@ -5,32 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace snug::contact {
 namespace {
 /// Sine of the angle up to which a direction counts as held or as tangential.
 const double least_angle = 1e-6;
 
-/// Shape functions below this value do not count at a point of a face.
+/// Shape functions and coefficients of rows below this value do not count.
 const double least_shape_function = 1e-6;
 
-/// Return those of the @p nodes of a face that have a shape function above @p least, ascending and
-/// with hanging nodes replaced by their masters.
+/// Return @p nodes, ascending and with hanging nodes replaced by their masters.
 template <int dim>
-std::vector<unsigned int> nodes_above(const double                     least,
-                                      const std::vector<double>       &shape_functions,
-                                      const std::vector<unsigned int> &nodes,
-                                      const mesh::Surface<dim>        &surface)
+std::vector<unsigned int> without_hanging(const std::vector<unsigned int> &nodes,
+                                          const mesh::Surface<dim>        &surface)
 {
   std::set<unsigned int> result;
-  for (unsigned int k = 0; k < nodes.size(); ++k)
-    if (std::abs(shape_functions[k]) > least)
-      {
-        if (surface.masters(nodes[k]).empty())
-          result.insert(nodes[k]);
-        for (const auto &master : surface.masters(nodes[k]))
-          result.insert(master.first);
-      }
+  for (const unsigned int node : nodes)
+    {
+      if (surface.masters(node).empty())
+        result.insert(node);
+      for (const auto &master : surface.masters(node))
+        result.insert(master.first);
+    }
   return {result.begin(), result.end()};
 }
 
@@ -73,7 +70,9 @@ dealii::Tensor<1, dim> largest_column(const dealii::Tensor<2, dim> &matrix)
 
 template <int dim>
 TangentFrames<dim>::TangentFrames(PairGeometry<dim> geometry)
-  : pair(std::move(geometry)), on_master(pair.surface.n_nodes(), false)
+  : pair(std::move(geometry))
+  , on_master(pair.surface.n_nodes(), false)
+  , faces_of_node(pair.surface.n_nodes())
 {
   if (pair.pair.obstacle)
     return;
@@ -82,6 +81,7 @@ TangentFrames<dim>::TangentFrames(PairGeometry<dim> geometry)
     for (const unsigned int node : pair.surface.faces()[face].nodes)
       {
         on_master[node] = true;
+        faces_of_node[node].push_back(face);
         for (const auto &master : pair.surface.masters(node))
           on_master[master.first] = true;
       }
@@ -123,18 +123,15 @@ TangentFrames<dim>::frame(const unsigned int slave,
                           const Row<dim>    &row,
                           const bool         relies_on_master) const
 {
-  std::vector<unsigned int> at_foot, of_face;
+  std::vector<unsigned int> at_foot, around_foot;
   if (nearest)
-    {
-      const auto  found = nearest->closest(pair.positions[slave]);
-      const auto &nodes = pair.surface.faces()[found.face].nodes;
-      const auto  shape = pair.shape.at(found.point.xi).value;
-      if (relies_on_master)
-        at_foot = nodes_above(least_shape_function, shape, nodes, pair.surface);
-      of_face = nodes_above(-1., shape, nodes, pair.surface);
-    }
+    std::tie(at_foot, around_foot) = nodes_at_foot(slave);
   const auto tangential = free_directions<dim>({row.normal});
-  const auto movable    = tangential * movable_directions(slave, at_foot, row.normal) * tangential;
+  const auto movable =
+    tangential *
+    movable_directions(slave, relies_on_master ? at_foot : std::vector<unsigned int>(),
+                       row.normal) *
+    tangential;
   const unsigned int n_tangents = rank_of(movable);
   TangentFrame<dim>  result;
   // If only one direction of the tangent plane is free, it is the first tangent.
@@ -143,8 +140,33 @@ TangentFrames<dim>::frame(const unsigned int slave,
     result.displacement = pair.obstacle_displacement();
   // In axisymmetric sections, rotations are no rigid motions.
   else if (!pair.surface.idealization().is_axisymmetric())
-    set_masters(row, of_face, result);
+    set_masters(row, around_foot, result);
   return {result, n_tangents};
+}
+
+/// Return the nodes with shape functions at the foot of a slave node, and the nodes of all faces of
+/// the master that have these nodes.
+template <int dim>
+std::pair<std::vector<unsigned int>, std::vector<unsigned int>>
+TangentFrames<dim>::nodes_at_foot(const unsigned int slave) const
+{
+  const auto                found = nearest->closest(pair.positions[slave]);
+  const auto               &nodes = pair.surface.faces()[found.face].nodes;
+  const auto                shape = pair.shape.at(found.point.xi).value;
+  std::vector<unsigned int> at_foot, around_foot;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    if (std::abs(shape[k]) > least_shape_function)
+      at_foot.push_back(nodes[k]);
+  for (const unsigned int face : faces_of_node[at_foot.front()])
+    {
+      const auto &others = pair.surface.faces()[face].nodes;
+      const auto  has    = [&](const unsigned int node) {
+        return std::find(others.begin(), others.end(), node) != others.end();
+      };
+      if (std::all_of(at_foot.begin(), at_foot.end(), has))
+        around_foot.insert(around_foot.end(), others.begin(), others.end());
+    }
+  return {without_hanging(at_foot, pair.surface), without_hanging(around_foot, pair.surface)};
 }
 
 /// Choose the nodes for the couple: those of the row on the master, or those of the face opposite
@@ -152,16 +174,17 @@ TangentFrames<dim>::frame(const unsigned int slave,
 /// that match.
 template <int dim>
 void TangentFrames<dim>::set_masters(const Row<dim>                  &row,
-                                     const std::vector<unsigned int> &of_face,
+                                     const std::vector<unsigned int> &around_foot,
                                      TangentFrame<dim>               &frame) const
 {
   for (const auto &coefficient : row.coefficients)
-    if (on_master[coefficient.first])
+    if (on_master[coefficient.first] &&
+        std::abs(coefficient.second * row.normal) > least_shape_function)
       frame.masters.push_back(coefficient.first);
   frame.spread = tangential_spread(row.normal, frame, pair.positions);
   if (frame.spread == dim - 1)
     return;
-  frame.masters = of_face;
+  frame.masters = around_foot;
   frame.spread  = tangential_spread(row.normal, frame, pair.positions);
 }
 

@@ -197,9 +197,9 @@ std::string rows_text(const Sources<dim>             &sources,
 } // namespace
 
 template <int dim>
-void ContactOutput<dim>::write(const Sources                  &of,
-                               const double                    time,
-                               const state::ContactState<dim> &state)
+std::string ContactOutput<dim>::write(const Sources                  &of,
+                                      const double                    time,
+                                      const state::ContactState<dim> &state)
 {
   // The gather is collective, so it must not be called within throw_collectively().
   const auto              &placed = of.placed;
@@ -219,6 +219,26 @@ void ContactOutput<dim>::write(const Sources                  &of,
                     faces_text<dim>(of, state, fields, compression));
     write_text_file(directory + "/" + stem + ".csv", rows_text<dim>(of, state, fields));
     write_text_file(directory + "/contact.pvd", pvd(series));
+  });
+  return series.back().second;
+}
+
+void write_load_cases(MPI_Comm                        comm,
+                      const std::string              &directory,
+                      const std::vector<std::string> &fields,
+                      const std::vector<std::string> &faces)
+{
+  throw_collectively(comm, [&] {
+    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
+      return;
+    std::vector<std::pair<double, std::string>> of_fields, of_faces;
+    for (unsigned int c = 0; c < fields.size(); ++c)
+      {
+        of_fields.emplace_back(c, fields[c]);
+        of_faces.emplace_back(c, faces[c]);
+      }
+    write_text_file(directory + "/solution.pvd", pvd(of_fields));
+    write_text_file(directory + "/contact.pvd", pvd(of_faces));
   });
 }
 

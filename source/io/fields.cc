@@ -185,11 +185,11 @@ std::vector<std::string> of_ranks(MPI_Comm all, const unsigned int n, const std:
 } // namespace
 
 template <int dim>
-void FieldOutput<dim>::write(const Sources                             &of,
-                             double                                     time,
-                             const state::ContactState<dim>            &state,
-                             const typename mesh::BodyMesh<dim>::Field *shape_gradient,
-                             const std::vector<double>                 *errors)
+std::string FieldOutput<dim>::write(const Sources                             &of,
+                                    double                                     time,
+                                    const state::ContactState<dim>            &state,
+                                    const typename mesh::BodyMesh<dim>::Field *shape_gradient,
+                                    const std::vector<double>                 *errors)
 {
   const auto  &mesh      = of.mesh;
   const auto   subdomain = subdomain_of_cell(mesh, of.tearing);
@@ -246,6 +246,7 @@ void FieldOutput<dim>::write(const Sources                             &of,
     write_text_file(directory + "/" + stem + ".pvtu", grid.pvtu(files));
     write_text_file(directory + "/solution.pvd", pvd(series));
   });
+  return series.back().second;
 }
 
 template class FieldOutput<2>;

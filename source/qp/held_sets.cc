@@ -143,7 +143,7 @@ bool HeldSets::change(const FreeSet     &free_set,
   if (sliding > 0. && sliding >= closing)
     {
       hold_slips(moved_slips(w, rates, lambda, rows), amount, rows);
-      if (unopposed > most_unopposed)
+      if (unopposed > most_unopposed && std::sqrt(amount) > balance_tolerance * size)
         {
           std::ostringstream text;
           text.precision(2);

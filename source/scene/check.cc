@@ -98,6 +98,9 @@ void check_friction(const Scene &scene, const Origins &origins)
   SectionCheck("Solver", origins, scene.dimension)
     .require(scene.solver.method == "active set", "Method", scene.solver.method,
              "must be 'active set' with friction");
+  SectionCheck("Output", origins, scene.dimension)
+    .require(!scene.output.export_qp, "Export QP", "true",
+             "must be false with friction, because the problem is no quadratic program");
 }
 
 /// Check the targets. A search needs the error of its objective, and variables that are the same

@@ -106,6 +106,8 @@ def input_cases(body, slave, master):
               ["formula of x,y,z"], friction),
         wrong("friction that drives", "Contact/Friction coefficient", "-0.1",
               ["0 or above"], friction),
+        wrong("friction in a quadratic program", "Output/Export QP", "true",
+              ["friction", "quadratic program"], {**friction, "Contact/Friction coefficient": "0.1"}),
         wrong("friction without its solver", "Solver/Method", "SMALSE-M",
               ["active set", "friction"], {**friction, "Contact/Friction coefficient": "0.1"}),
         wrong("zero cells", own + "Box cells", "0, 2, 2"),

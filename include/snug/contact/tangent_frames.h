@@ -27,12 +27,15 @@ public:
   frame(unsigned int slave, const Row<dim> &row, bool relies_on_master) const;
 
 private:
-  const PairGeometry<dim>         pair;
-  std::optional<NearestFace<dim>> nearest; ///< none for obstacles
-  std::vector<bool>               on_master;
+  const PairGeometry<dim>                pair;
+  std::optional<NearestFace<dim>>        nearest; ///< none for obstacles
+  std::vector<bool>                      on_master;
+  std::vector<std::vector<unsigned int>> faces_of_node; ///< of the master
 
+  std::pair<std::vector<unsigned int>, std::vector<unsigned int>>
+                         nodes_at_foot(unsigned int slave) const;
   void                   set_masters(const Row<dim>                  &row,
-                                     const std::vector<unsigned int> &of_face,
+                                     const std::vector<unsigned int> &around_foot,
                                      TangentFrame<dim>               &frame) const;
   dealii::Tensor<2, dim> movable_directions(unsigned int                     slave,
                                             const std::vector<unsigned int> &opposite,

@@ -65,15 +65,25 @@ public:
     : directory(directory), compression(parameters.compression)
   {}
 
-  /// Add @p state to the series with the time @p time. Collective.
+  /// Add @p state to the series with the time @p time, and return the name of its file.
+  /// Collective.
   /// @throws std::runtime_error if a file cannot be written.
-  void write(const Sources &of, double time, const state::ContactState<dim> &state);
+  std::string write(const Sources &of, double time, const state::ContactState<dim> &state);
 
 private:
   std::string                                 directory;
   unsigned int                                compression;
   std::vector<std::pair<double, std::string>> series;
 };
+
+/// Write the series solution.pvd and contact.pvd of the states of all load cases, with their
+/// numbers as times. @p fields and @p faces are the files of the load cases, relative to @p
+/// directory. Collective.
+/// @throws std::runtime_error if a file cannot be written.
+void write_load_cases(MPI_Comm                        comm,
+                      const std::string              &directory,
+                      const std::vector<std::string> &fields,
+                      const std::vector<std::string> &faces);
 } // namespace snug::io
 
 #endif

@@ -60,13 +60,14 @@ public:
    * @param[in] shape_gradient dJ/dX at the local nodes, including hanging nodes, as shares that
    * add up over ranks; null: not written.
    * @param[in] errors estimated errors of the cells; null: not written.
+   * @return the name of the file that lists the files of all ranks.
    * @throws std::runtime_error if a file cannot be written.
    */
-  void write(const Sources                             &of,
-             double                                     time,
-             const state::ContactState<dim>            &state,
-             const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr,
-             const std::vector<double>                 *errors         = nullptr);
+  std::string write(const Sources                             &of,
+                    double                                     time,
+                    const state::ContactState<dim>            &state,
+                    const typename mesh::BodyMesh<dim>::Field *shape_gradient = nullptr,
+                    const std::vector<double>                 *errors         = nullptr);
 
 private:
   std::string                                 directory;

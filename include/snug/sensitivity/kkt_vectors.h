@@ -15,7 +15,7 @@ struct KktVectors
   qp::MultiVector     dual;   ///< owned rows
   /// Owned rows; of derivatives: the given parts of the multipliers, see bound_derivatives(). No
   /// columns: zero
-  qp::MultiVector     given = qp::MultiVector(0, 0);
+  qp::MultiVector given = qp::MultiVector(0, 0);
 };
 
 /// Return x'y, the sum over all three parts, summed over ranks (x columns x y columns). Collective.

@@ -286,64 +286,6 @@ TEST(StateFriction, DoesNotDependOnSubdomainsOrderAndAxes)
   expect_same(turned);
 }
 
-/// A block in the edge of two obstacles: both hold the nodes on the edge, and the friction of both
-/// adds up along it.
-TEST(StateFriction, TwoObstaclesHoldANode)
-{
-  TestScene<3> scene;
-  scene.bodies.resize(1);
-  auto &block = scene.bodies[0];
-  for (unsigned int d = 0; d < 3; ++d)
-    block.size[d] = 1.;
-  block.cells                            = {4, 4, 4};
-  block.loads[face_index(2, 1)].pressure = 3.;
-  block.loads[face_index(0, 1)].pressure = 2.;
-  for (const unsigned int axis : {2u, 0u})
-    {
-      contact::Pair pair;
-      pair.slave      = {0, face_index(axis, 0)};
-      pair.slave_name = axis == 2 ? "block.bottom" : "block.left";
-      pair.obstacle.emplace();
-      pair.obstacle->name                  = axis == 2 ? "floor" : "wall";
-      pair.obstacle->point                 = {0., 0., 0.};
-      pair.obstacle->normal                = {axis == 0 ? 1. : 0., 0., axis == 2 ? 1. : 0.};
-      pair.obstacle->displacement          = {0., 0., 0.};
-      pair.parameters.friction             = contact::Friction::Coulomb;
-      pair.parameters.friction_coefficient = axis == 2 ? "0.3" : "0.2";
-      scene.pairs.push_back(pair);
-    }
-  const auto push = [&](const double part) {
-    block.loads[face_index(2, 1)].traction[1] = part * 0.3 * 3.;
-    block.loads[face_index(0, 1)].traction[1] = part * 0.2 * 2.;
-    return Problem<3>(scene).solve();
-  };
-  for (const double part : {0.3, 0.9, 0.999})
-    {
-      const auto state = push(part);
-      EXPECT_LE(state.certificate.worst(), 1e-10) << part;
-      double along = 0.;
-      for (const auto &point : state.contact)
-        along += point.shear[1];
-      EXPECT_NEAR(std::abs(along), part * 1.3, 1e-8);
-    }
-  EXPECT_THROW(push(1.001), SolveError);
-}
-
-/// The supports hold the nodes at the sides of the punch, and there are fewer nodes of the
-/// foundation opposite to them.
-TEST(StateFriction, SupportsHoldMoreSlavesThanMastersAreOpposite)
-{
-  for (const auto method : {contact::Method::nodal, contact::Method::mortar})
-    {
-      auto scene           = two_blocks<3>(6, 2, 0.);
-      scene.method         = method;
-      scene.friction       = contact::Friction::Coulomb;
-      scene.friction_value = "0.3";
-      const auto state     = Problem<3>(scene).solve();
-      EXPECT_LE(state.certificate.worst(), 1e-10);
-    }
-}
-
 /// A block spreads on a plane, and all contacts slip: one must stick, as nothing else holds it.
 TEST(StateFriction, AllSlipWithoutShear)
 {

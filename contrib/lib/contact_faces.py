@@ -1,5 +1,6 @@
-"""Draw the contact pressure on every slave side."""
+"""Draw the pressure, the friction traction and the slip on every slave side."""
 
+import collections
 import json
 import os
 
@@ -10,22 +11,40 @@ from drawing import add_scale, paint, panels, save, titles
 from states import array_of, cells_of, points_of
 
 
-class Side:
-    """This class has the faces of one slave side at one state."""
+# Status of friction in the array of that name.
+STICK, SLIP = 2, 3
 
-    def __init__(self, grid, pair):
+# An array of the contact faces: its picture, title, unit, and the dotted nodes.
+Field = collections.namedtuple("Field", "array label unit picture title dots is_dotted")
+FIELDS = [
+    Field("pressure", "pressure", "scene's force / length²", "contact-pressure.png",
+          "Contact pressure on the slave faces", "nodes in contact",
+          lambda grid: array_of(grid, "active") > 0.5),
+    Field("traction", "friction traction", "scene's force / length²", "friction-traction.png",
+          "Magnitude of the friction traction on the slave faces", "nodes that stick",
+          lambda grid: array_of(grid, "friction") == STICK),
+    Field("slip", "slip", "scene's length", "slip.png",
+          "Magnitude of the slip in the last load step on the slave faces", "nodes that slip",
+          lambda grid: array_of(grid, "friction") == SLIP)]
+
+
+class Side:
+    """This class has the faces of one slave side at one state, with a field of FIELDS."""
+
+    def __init__(self, grid, pair, field=FIELDS[0]):
         faces = cells_of(grid)
         number = array_of(grid, "pair")[faces[:, 0]]
         self.faces = faces[number == pair]
         self.nodes = np.unique(self.faces)
         self.points = points_of(grid)
         self.pressure = array_of(grid, "pressure")
-        self.active = [node for node in self.nodes
-                       if array_of(grid, "active")[node] > 0.5]
+        values = array_of(grid, field.array)
+        self.values = values if values.ndim == 1 else np.linalg.norm(values, axis=1)
+        self.dotted = self.nodes[field.is_dotted(grid)[self.nodes]]
         self.flat = self.faces.shape[1] == 2
 
     def peak(self):
-        return self.pressure[self.nodes].max()
+        return self.values[self.nodes].max()
 
     def normal(self):
         """Return the coordinate axis closest to the normal, where a 3D face is loaded if it
@@ -41,7 +60,7 @@ class Side:
 
     def peaks(self):
         """Return where the pressure is largest, or as good as that."""
-        high = self.pressure[self.nodes] >= 0.98 * self.peak()
+        high = self.values[self.nodes] >= 0.98 * self.peak()
         return self.points[self.nodes[high]]
 
     def curve(self):
@@ -78,10 +97,10 @@ class Side:
         return result
 
 
-def slave_sides(states):
+def slave_sides(states, field=FIELDS[0]):
     """Return for every pair with a slave side of its own its side at all states."""
     pairs = np.unique(array_of(states[0][1], "pair"))
-    return {int(pair): [Side(grid, pair) for _, grid in states]
+    return {int(pair): [Side(grid, pair, field) for _, grid in states]
             for pair in pairs if pair >= 0}
 
 
@@ -94,19 +113,22 @@ def names_of(directory, sides):
     return [pairs[pair]["name"].split(":")[0] for pair in sides]
 
 
-def draw_pressure(directory, states, peak):
-    """Draw the first and the last state into contact-pressure.png; colours go up to the largest
-    pressure, or to peak if that is larger."""
-    sides = slave_sides(states)
-    if not sides:
-        print(f"plot: no contact faces in '{directory}', "
-              "no contact-pressure.png")
-        return
-    names = names_of(directory, sides)
-    if next(iter(sides.values()))[0].flat:
-        draw_curves(directory, states, list(sides.values()), names)
-    else:
-        draw_faces(directory, states, list(sides.values()), names, peak)
+def draw_contact(directory, states, peak):
+    """Draw the first and the last state into a picture for each of FIELDS that the states have.
+    Colours of pressures go up to the largest pressure, or to peak if that is larger."""
+    for field in FIELDS:
+        if not states[0][1].GetPointData().HasArray(field.array):
+            continue
+        sides = slave_sides(states, field)
+        if not sides:
+            print(f"plot: no contact faces in '{directory}', no {field.picture}")
+            continue
+        names = names_of(directory, sides)
+        if next(iter(sides.values()))[0].flat:
+            draw_curves(directory, states, list(sides.values()), names, field)
+        else:
+            draw_faces(directory, states, list(sides.values()), names, field,
+                       peak if field is FIELDS[0] else 0.)
 
 
 def window(row, plane):
@@ -124,7 +146,7 @@ def window(row, plane):
     return low, high
 
 
-def draw_faces(directory, states, sides, names, peak):
+def draw_faces(directory, states, sides, names, field, peak):
     peak = max(peak, *(side.peak() for row in sides for side in row))
     planes = [[k for k in range(3) if k != row[-1].normal()] for row in sides]
     windows = [window(row, plane) for row, plane in zip(sides, planes)]
@@ -135,8 +157,8 @@ def draw_faces(directory, states, sides, names, peak):
         margin = 0.03 * (high - low)
         for side, title, axis in zip(row, titles(states), line):
             image = paint(axis, side.points[:, plane], side.faces.tolist(),
-                          side.pressure, peak)
-            axis.plot(*side.points[side.active][:, plane].T, ".",
+                          side.values, peak)
+            axis.plot(*side.points[side.dotted][:, plane].T, ".",
                       color="white", markersize=1.5)
             axis.set_xlim(low[0] - margin[0], high[0] + margin[0])
             axis.set_ylim(low[1] - margin[1], high[1] + margin[1])
@@ -144,10 +166,9 @@ def draw_faces(directory, states, sides, names, peak):
                            .strip())
             axis.set_xlabel(f"{'xyz'[plane[0]]} (scene's length)")
         line[0].set_ylabel(f"{'xyz'[plane[1]]} (scene's length)")
-    figure.suptitle("Contact pressure on the slave faces; "
-                    "dots: nodes in contact")
-    add_scale(figure, axes, image, "pressure")
-    save(figure, directory, "contact-pressure.png")
+    figure.suptitle(f"{field.title}; dots: {field.dots}")
+    add_scale(figure, axes, image, field.label)
+    save(figure, directory, field.picture)
 
 
 def show_small_contact(axis, places, loaded):
@@ -158,7 +179,7 @@ def show_small_contact(axis, places, loaded):
                       min(places.max(), max(loaded) + width))
 
 
-def draw_curves(directory, states, sides, names):
+def draw_curves(directory, states, sides, names, field):
     figure, axes = plt.subplots(
         len(sides), 1, figsize=(8., 2. + 3. * len(sides)),
         layout="constrained", squeeze=False)
@@ -169,10 +190,10 @@ def draw_curves(directory, states, sides, names):
             loaded += list(places[side.pressure[side.faces] > 0.])
             order = np.argsort(places.ravel(), kind="stable")
             axis.plot(places.ravel()[order],
-                      side.pressure[side.faces.ravel()[order]], ".-",
+                      side.values[side.faces.ravel()[order]], ".-",
                       markersize=3, label=title)
         axis.set_xlabel(label)
-        axis.set_ylabel("pressure\n(scene's force / length²)")
+        axis.set_ylabel(f"{field.label}\n({field.unit})")
         # a uniform pressure is off the frame, too
         axis.set_ylim(0., 1.15 * max(side.peak() for side in row) or 1.)
         show_small_contact(axis, places, loaded)
@@ -180,5 +201,5 @@ def draw_curves(directory, states, sides, names):
         axis.grid(True, alpha=0.3)
         if len(states) > 1:
             axis.legend()
-    figure.suptitle("Contact pressure on the slave faces")
-    save(figure, directory, "contact-pressure.png")
+    figure.suptitle(field.title)
+    save(figure, directory, field.picture)
