@@ -16,6 +16,9 @@ namespace {
 /// Rates of contacts below this part of the largest rate are rounding errors.
 const double slow = 1e-10;
 
+/// Part of a load that may be rounding errors.
+const double load_rounding = 1e-12;
+
 /// Number of changes, without slips against the motion, after which the bodies slide.
 const unsigned int most_unopposed = 3;
 
@@ -143,12 +146,13 @@ bool HeldSets::change(const FreeSet     &free_set,
   if (sliding > 0. && sliding >= closing)
     {
       hold_slips(moved_slips(w, rates, lambda, rows), amount, rows);
-      if (unopposed > most_unopposed && std::sqrt(amount) > balance_tolerance * size)
+      const double lacking = std::sqrt(amount) / (is_loaded ? load : size);
+      if (unopposed > most_unopposed && lacking > load_rounding)
         {
           std::ostringstream text;
           text.precision(2);
           text << "slides: " << problem.describe_motion(motion) << "; friction forces lack "
-               << 100. * std::sqrt(amount) / (is_loaded ? load : size) << " % of the load along it";
+               << 100. * lacking << " % of the load along it";
           throw SolveError(text.str());
         }
       return true;
