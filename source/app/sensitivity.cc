@@ -46,13 +46,16 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
   : problem(problem), results(results), states(states)
 {
   choose_method();
-  const bool with_friction = problem.solver->has_friction();
-  bool       one_sided     = sensitivity::needs_solve(*problem.objective, with_friction) &&
+  const bool  with_friction = problem.solver->has_friction();
+  const auto &load_cases    = problem.solver->model().load_cases;
+  const bool  with_steps    = std::any_of(load_cases.begin(), load_cases.end(),
+                                          [](const auto &of) { return of.after.has_value(); });
+  bool        one_sided     = sensitivity::needs_solve(*problem.objective, with_friction) &&
                    std::any_of(states.begin(), states.end(),
                                [](const auto &state) { return state.weak_contacts > 0; });
   if (one_sided)
     results.warn_of_weak_contacts(states);
-  one_sided = one_sided && !with_friction; // not known with friction
+  one_sided = one_sided && !with_steps; // the increments of the steps are not known
   for (const Method &method : methods())
     {
       // before differences, which leave the solver at another design

@@ -141,9 +141,8 @@ bool HeldSets::change(const FreeSet     &free_set,
   for (unsigned int i = 0; i < problem.n_owned(); ++i)
     if (problem.bounded()[i] && !rows.rows()[i])
       closing = std::max(closing, rates(i));
-  sliding = largest_of_all(sliding, comm);
   closing = largest_of_all(closing, comm);
-  if (sliding > 0. && sliding >= closing)
+  if (sliding = largest_of_all(sliding, comm); sliding > 0. && sliding >= closing)
     {
       hold_slips(moved_slips(w, rates, lambda, rows), amount, rows);
       const double lacking = std::sqrt(amount) / (is_loaded ? load : size);

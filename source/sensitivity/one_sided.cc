@@ -1,3 +1,4 @@
+#include <snug/sensitivity/friction_increments.h>
 #include <snug/sensitivity/methods.h>
 #include <snug/sensitivity/one_sided.h>
 #include <snug/sensitivity/sensitivity_qp.h>
@@ -11,6 +12,8 @@ KktVectors column_of(const KktVectors &x, unsigned int j)
   for (const auto &part : x.primal)
     column.primal.push_back(part.columns_from(j, 1));
   column.dual = x.dual.columns_from(j, 1);
+  if (x.given.n_columns() > 0)
+    column.given = x.given.columns_from(j, 1);
   return column;
 }
 
@@ -68,17 +71,19 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
     TangentSystem(feti, strong, parameters, Solves::block, state.dual.directions).solve(data);
   if (state.weak_contacts == 0)
     return linear;
-  if (solver.has_friction())
-    throw SolveError("one-sided derivatives at weakly active contacts are not known with friction");
   KktVectors result;
   result.dual = qp::MultiVector(feti.n_owned(), 0);
   for (const auto &part : data.primal)
     result.primal.emplace_back(part.n_rows(), 0);
   for (unsigned int j = 0; j < data.dual.n_columns(); ++j)
     {
-      const auto          data_j = column_of(data, j);
-      const SensitivityQp problem(feti, strong.rows(), weak, data_j);
-      const auto column = solve_from(problem, feti, parameters, data_j, column_of(linear, j));
+      const auto data_j = column_of(data, j);
+      const auto column = [&] {
+        if (solver.has_friction())
+          return friction_increments(solver, state, data_j);
+        const SensitivityQp problem(feti, strong.rows(), weak, data_j);
+        return solve_from(problem, feti, parameters, data_j, column_of(linear, j));
+      }();
       result.dual.append(column.dual);
       for (unsigned int s = 0; s < result.primal.size(); ++s)
         result.primal[s].append(column.primal[s]);

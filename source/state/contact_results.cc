@@ -138,10 +138,12 @@ void describe_friction(const StateSolver<dim>     &solver,
         point.traction = -point.pressure / point.force * point.shear;
       state.dissipation += point.shear * point.slip;
       state.slipping_contacts += point.friction == FrictionStatus::slip;
-      if (point.strong)
-        state.friction_distance =
-          std::min(state.friction_distance,
-                   std::max(1. - point.shear.norm() / point.limit, point.slip.norm() / length));
+      if (!point.strong)
+        continue;
+      const double distance =
+        std::max(1. - point.shear.norm() / point.limit, point.slip.norm() / length);
+      state.friction_distance = std::min(state.friction_distance, distance);
+      point.weak              = distance <= strong_part;
     }
   // The dual value of describe_energies() contains the work of all forces of contact.
   state.energy -= state.dissipation;

@@ -9,8 +9,8 @@ namespace snug::sensitivity {
  * Compute u'(alpha; beta) and lambda'(alpha; beta), the derivatives of the state when the design
  * moves in the directions beta. @p data contains ft and ct of data_derivatives() along any number
  * of directions, one column each. If contacts are weakly active, each column is the solution of the
- * QP of equation (14). The QP solver starts from the solution on the strongly active set. The
- * derivatives are not linear in beta. Collective.
+ * QP of equation (14), or with friction that of friction_increments(). The QP solver starts from
+ * the solution on the strongly active set. The derivatives are not linear in beta. Collective.
  * @throws SolveError.
  */
 template <int dim>

@@ -62,7 +62,8 @@ struct ContactPoint
   double area     = 0.;    ///< tributary area [length^(dim-1)]
   bool   active   = false; ///< in the active set
   bool   strong   = false; ///< force above the strong tolerance
-  bool   weak     = false; ///< neither force nor gap, within tolerances
+  /// neither force nor gap, or at the limit of friction without a slip, within tolerances
+  bool weak = false;
 
   /// @name Friction, in space
   /// @{
