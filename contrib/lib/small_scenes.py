@@ -55,6 +55,13 @@ def named_boundaries(result, _):
             ("top", -result.state["responses"]["top"], .5 / 1000)]
 
 
+def boundary_formulas(result, _):
+    """Pressure 1 on both parts of the top shortens the height 0.5, and acts on both of the bottom."""
+    seat = result.state["pairs"][1]
+    return [*known_answers.extremes(result, 1.), ("seat", seat["force"][2], .5),
+            ("pad", -result.state["responses"]["pad"], .5 / 1000)]
+
+
 def lame_cylinder(result, _):
     """A rod of radius 1 is 0.002 too thick, and a tube up to radius 2 is on a pin 0.001 too thick,
     in plane strain."""
@@ -205,6 +212,7 @@ CHECKS = [
     Check("two-materials", [], two_materials),
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
+    Check("boundary-formulas", [], boundary_formulas, 1e-6),
     Check("lame-cylinder", [], lame_cylinder, 3e-3),
     Check("lame-cylinder", ["Obstacle pin/Shape=cylinder", "Obstacle pin/Formula="],
           same("state.max_pressure", "state.pairs.1.force.0"), 1e-6, []),

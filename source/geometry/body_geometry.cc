@@ -1,4 +1,5 @@
 #include <snug/geometry/body_sources.h>
+#include <snug/geometry/boundary_formulas.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/placement.h>
 #include <snug/geometry/regions.h>
@@ -76,8 +77,10 @@ Names names(Source)
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_geometry(const BodyMeshParameters &parameters)
 {
-  // Regions are added after the placement, because their formulas take placed positions.
-  return with_regions(placed(made<dim>(parameters), parameters), parameters);
+  // Regions and boundaries are added after the placement, because their formulas take placed
+  // positions.
+  return with_boundary_formulas(with_regions(placed(made<dim>(parameters), parameters), parameters),
+                                parameters);
 }
 
 template <int dim>

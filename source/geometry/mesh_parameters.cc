@@ -120,6 +120,13 @@ void declare_regions(Entries &entries, BodyMeshParameters &mesh)
               "The regions for 'Materials' that are added to the regions of a mesh file. A cell of "
               "the mesh before refinement belongs to the first region whose formula of x, y, z is "
               "positive at its centre: 'core: 1 - x^2 - y^2; coat: z > 0.9'.");
+  entries.add("Boundary formulas", access(mesh.boundary_formulas, ';'),
+              allowed("a list 'name: boundary & FORMULA; ...' of different new names, separated by "
+                      "semicolons"),
+              "New boundaries, which are parts of boundaries of the mesh: the faces before "
+              "refinement on which a formula of x, y, z is positive, the others keep their "
+              "boundary. The edges of a part must follow edges of faces: 'seat: bottom & x < 0.5; "
+              "pad: top & max(abs(x), abs(y)) < 0.2'.");
 }
 
 void declare_refinement(Entries &entries, BodyMeshParameters &mesh)

@@ -93,10 +93,12 @@ struct BodyMeshParameters
   std::shared_ptr<const ImportedMesh> imported; ///< contents of the file
   /// @}
 
-  /// @name Regions, to which materials may refer
+  /// @name Regions, to which materials may refer, and parts of boundaries
   /// @{
   /// {region, formula of x, y, z}, see with_regions()
   std::vector<std::pair<std::string, std::string>> region_formulas;
+  /// {boundary, "boundary & formula of x, y, z"}, see with_boundary_formulas()
+  std::vector<std::pair<std::string, std::string>> boundary_formulas;
   /// groups of a file that are regions; a cell in several groups belongs to the group in this
   /// list
   std::vector<std::string> named_regions;
@@ -234,7 +236,7 @@ public:
   virtual dealii::Point<dim> box_position(const dealii::Point<dim> &fraction) const;
 };
 
-/// Return the geometry of a body with the placement and the regions of the parameters.
+/// Return the geometry of a body with the placement, regions and boundaries of the parameters.
 /// @throws InputError naming the entry.
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_geometry(const BodyMeshParameters &parameters);

@@ -1,0 +1,186 @@
+#include <snug/geometry/boundary_formulas.h>
+#include <snug/geometry/entry_values.h>
+#include <snug/geometry/formula.h>
+#include <snug/geometry/wrapped_geometry.h>
+
+#include <deal.II/base/geometry_info.h>
+
+namespace snug::geometry {
+namespace {
+const std::string entry = "Boundary formulas";
+
+/// Part of the way from a vertex to the centre of its face at which formulas are evaluated.
+const double inside = 1e-9;
+
+/// Number of bisections of an edge to find where a formula changes its sign.
+const unsigned int n_bisections = 40;
+
+/// A boundary that consists of faces of another one.
+template <int dim>
+struct NewBoundary
+{
+  std::string  text; ///< as in the entry
+  unsigned int of;   ///< index of the other boundary
+  Formula<dim> formula;
+};
+
+/// The faces of a boundary that a formula cuts.
+template <int dim>
+struct CutFaces
+{
+  unsigned int       n = 0;
+  dealii::Point<dim> place;       ///< where the formula changes its sign on the first one
+  double             length = 0.; ///< of the edge there
+};
+
+template <int dim>
+NewBoundary<dim>
+parsed(const std::string &name, const std::string &text, const std::vector<std::string> &names)
+{
+  const auto        end   = text.find('&');
+  const std::string value = name + ": " + text;
+  if (end == std::string::npos)
+    throw bad_entry(entry, value, "must be 'name: boundary & FORMULA'");
+  const std::string  of    = trim(text.substr(0, end));
+  const unsigned int index = index_of(names, of);
+  if (index == names.size())
+    throw bad_entry(entry, value, "must name one of the boundaries " + to_text(names));
+  return {value, index, Formula<dim>(entry, text.substr(end + 1))};
+}
+
+/// A geometry whose coarse faces have the new boundaries.
+template <int dim>
+class GeometryWithBoundaries : public WrappedGeometry<dim>
+{
+public:
+  using CoarseMesh = typename BodyGeometry<dim>::CoarseMesh;
+
+  GeometryWithBoundaries(std::unique_ptr<BodyGeometry<dim>> geometry,
+                         const BodyMeshParameters          &parameters)
+    : WrappedGeometry<dim>(std::move(geometry)), names(this->body->boundary_names())
+  {
+    const auto own = names;
+    for (const auto &[name, text] : parameters.boundary_formulas)
+      {
+        if (index_of(names, name) < names.size())
+          throw bad_entry(entry, name + ": " + text, "must have a name that no boundary has");
+        added.push_back(parsed<dim>(name, text, own));
+        names.push_back(name);
+      }
+    mark(this->body->coarse_mesh());
+  }
+
+  CoarseMesh coarse_mesh() const override
+  {
+    auto mesh = this->body->coarse_mesh();
+    for (unsigned int i = 0; i < boundaries.size(); ++i)
+      mesh.boundary_faces[i].second = boundaries[i];
+    return mesh;
+  }
+
+  const std::vector<std::string> &boundary_names() const override { return names; }
+
+  BoundaryShape boundary_shape(const unsigned int boundary) const override
+  {
+    const unsigned int n = names.size() - added.size();
+    return this->body->boundary_shape(boundary < n ? boundary : added[boundary - n].of);
+  }
+
+private:
+  using Corners = std::vector<dealii::Point<dim>>;
+
+  std::vector<std::string>      names;
+  std::vector<NewBoundary<dim>> added;
+  std::vector<unsigned int>     boundaries; ///< of the boundary faces of the coarse mesh
+
+  /// Find the boundaries of the faces.
+  void mark(const CoarseMesh &mesh)
+  {
+    // Vertices of the coarse mesh need not lie at their positions.
+    std::vector<MeshPoint<dim>> places(mesh.vertices.size());
+    for (unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
+      for (unsigned int v = 0; v < mesh.cells[cell].size(); ++v)
+        places[mesh.cells[cell][v]] = {cell, dealii::GeometryInfo<dim>::unit_cell_vertex(v)};
+    const unsigned int         n_own = names.size() - added.size();
+    std::vector<unsigned int>  n_faces(added.size(), 0);
+    std::vector<CutFaces<dim>> cut(added.size());
+    for (const auto &[vertices, boundary] : mesh.boundary_faces)
+      {
+        boundaries.push_back(boundary);
+        Corners corners;
+        for (const unsigned int vertex : vertices)
+          corners.push_back(this->body->position(places[vertex]));
+        for (unsigned int k = 0; k < added.size() && boundaries.back() == boundary; ++k)
+          if (added[k].of == boundary && contains(added[k].formula, corners, cut[k]))
+            {
+              boundaries.back() = n_own + k;
+              ++n_faces[k];
+            }
+      }
+    for (unsigned int k = 0; k < added.size(); ++k)
+      check(added[k].text, n_faces[k], cut[k]);
+  }
+
+  /// Return whether the formula is positive at all corners of a face, and count it in @p cut if it
+  /// is positive at some.
+  static bool contains(const Formula<dim> &formula, const Corners &corners, CutFaces<dim> &cut)
+  {
+    dealii::Point<dim> centre;
+    for (const auto &corner : corners)
+      centre += corner / double(corners.size());
+    Corners           places;
+    std::vector<bool> positive;
+    for (const auto &corner : corners)
+      {
+        places.push_back(corner + inside * (centre - corner));
+        positive.push_back(formula.value(places.back()) > 0.);
+      }
+    const auto n = std::count(positive.begin(), positive.end(), true);
+    if (n > 0 && n < std::ptrdiff_t(corners.size()) && cut.n++ == 0)
+      {
+        // Some edge of the face, or its diagonal, has both signs.
+        const auto         first = std::find(positive.begin(), positive.end(), true);
+        const auto         last  = std::find(positive.begin(), positive.end(), false);
+        dealii::Point<dim> in    = places[first - positive.begin()],
+                           out   = places[last - positive.begin()];
+        cut.length               = in.distance(out);
+        for (unsigned int i = 0; i < n_bisections; ++i)
+          {
+            const dealii::Point<dim> middle         = in + 0.5 * (out - in);
+            (formula.value(middle) > 0. ? in : out) = middle;
+          }
+        cut.place = in;
+      }
+    return n == std::ptrdiff_t(corners.size());
+  }
+
+  static void check(const std::string &value, const unsigned int n_faces, const CutFaces<dim> &cut)
+  {
+    std::ostringstream text;
+    if (cut.n > 0)
+      text << "must follow the edges of faces, but cuts " << counted(cut.n, "face")
+           << ", the first at (" << cut.place << "), on an edge of the length " << cut.length
+           << "; move the nodes there by the numbers or sizes of cells";
+    else if (n_faces == 0)
+      text << "must be positive on a face of the mesh before refinement";
+    if (!text.str().empty())
+      throw bad_entry(entry, value, text.str());
+  }
+};
+} // namespace
+
+template <int dim>
+std::unique_ptr<BodyGeometry<dim>>
+with_boundary_formulas(std::unique_ptr<BodyGeometry<dim>> geometry,
+                       const BodyMeshParameters          &parameters)
+{
+  if (parameters.boundary_formulas.empty())
+    return geometry;
+  return std::make_unique<GeometryWithBoundaries<dim>>(std::move(geometry), parameters);
+}
+
+template std::unique_ptr<BodyGeometry<2>> with_boundary_formulas(std::unique_ptr<BodyGeometry<2>>,
+                                                                 const BodyMeshParameters &);
+template std::unique_ptr<BodyGeometry<3>> with_boundary_formulas(std::unique_ptr<BodyGeometry<3>>,
+                                                                 const BodyMeshParameters &);
+} // namespace snug::geometry
