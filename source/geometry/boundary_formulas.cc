@@ -33,6 +33,12 @@ struct CutFaces
   double             length = 0.; ///< of the edge there
 };
 
+/// Return the boundary before the formula.
+std::string divided(const std::string &text)
+{
+  return trim(text.substr(0, text.find('&')));
+}
+
 template <int dim>
 NewBoundary<dim>
 parsed(const std::string &name, const std::string &text, const std::vector<std::string> &names)
@@ -41,8 +47,7 @@ parsed(const std::string &name, const std::string &text, const std::vector<std::
   const std::string value = name + ": " + text;
   if (end == std::string::npos)
     throw bad_entry(entry, value, "must be 'name: boundary & FORMULA'");
-  const std::string  of    = trim(text.substr(0, end));
-  const unsigned int index = index_of(names, of);
+  const unsigned int index = index_of(names, divided(text));
   if (index == names.size())
     throw bad_entry(entry, value, "must name one of the boundaries " + to_text(names));
   return {value, index, Formula<dim>(entry, text.substr(end + 1))};
@@ -177,6 +182,14 @@ with_boundary_formulas(std::unique_ptr<BodyGeometry<dim>> geometry,
   if (parameters.boundary_formulas.empty())
     return geometry;
   return std::make_unique<GeometryWithBoundaries<dim>>(std::move(geometry), parameters);
+}
+
+bool is_part(const BodyMeshParameters &parameters, const std::string &boundary)
+{
+  const auto &formulas = parameters.boundary_formulas;
+  return std::any_of(formulas.begin(), formulas.end(), [&](const auto &formula) {
+    return formula.first == boundary || divided(formula.second) == boundary;
+  });
 }
 
 template std::unique_ptr<BodyGeometry<2>> with_boundary_formulas(std::unique_ptr<BodyGeometry<2>>,

@@ -1,3 +1,4 @@
+#include <snug/geometry/boundary_formulas.h>
 #include <snug/scene/check.h>
 
 #include <algorithm>
@@ -22,6 +23,11 @@ void check_places(const Scene                  &scene,
                   "Interior", to_text(shape.interior),
                   "must be Laplace or elasticity for the body '" + body.name +
                     "', which is not a box");
+  section.require(shape.interior != shape::InteriorKind::linear_blending ||
+                    !geometry::is_part(body.mesh, split_face(shape.face).second),
+                  "Interior", to_text(shape.interior),
+                  "must be Laplace or elasticity for the face '" + shape.face +
+                    "', which 'Boundary formulas' make a part of a side");
 }
 } // namespace
 

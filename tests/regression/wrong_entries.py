@@ -120,6 +120,10 @@ def input_cases(body, slave, master):
               ["positive on a face"]),
         wrong("part that cuts faces", own + "Boundary formulas", "pad: top & x > 0.321",
               ["cuts", "face", "0.321"]),
+        wrong("shape of a part of a side", "Shape/Interior", "linear blending",
+              ["Laplace or elasticity", "Boundary formulas"],
+              {**shape, f"Body {master.split('.')[0]}/Boundary formulas":
+               f"seat: {master.split('.')[1]} & x < 0.5"}),
         Case("part by no formula", {own + "Boundary formulas": "pad: top & t > 0"},
              ["Boundary formulas", "t > 0", "formula of x,y,z"], []),
         wrong("zero cells", own + "Box cells", "0, 2, 2"),

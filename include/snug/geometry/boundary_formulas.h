@@ -18,6 +18,9 @@ template <int dim>
 std::unique_ptr<BodyGeometry<dim>>
 with_boundary_formulas(std::unique_ptr<BodyGeometry<dim>> geometry,
                        const BodyMeshParameters          &parameters);
+
+/// Return whether boundary formulas make @p boundary a part of a boundary of the mesh.
+bool is_part(const BodyMeshParameters &parameters, const std::string &boundary);
 } // namespace snug::geometry
 
 #endif
