@@ -225,6 +225,28 @@ TEST(StateFriction, BlocksHoldUpToTheLimit)
   EXPECT_EQ(message(tresca).rfind("slides: body punch", 0), 0u) << message(tresca);
 }
 
+/// Nothing holds the bodies, which spread by different amounts and may move together.
+TEST(StateFriction, FreeBodiesSpreadOnEachOther)
+{
+  for (const unsigned int n : {4u, 5u})
+    {
+      auto scene               = pushed_block<2>(0.);
+      scene.friction_value     = "0.1";
+      scene.bodies[0].cells    = {n, 3};
+      scene.bodies[0].material = {300., 0.1, 0.};
+      scene.bodies[1].supports = {};
+      const double pressure    = scene.bodies[0].loads[face_index(1, 1)].pressure;
+      scene.bodies[1].loads[face_index(1, 0)].pressure = pressure;
+      for (auto &body : scene.bodies)
+        for (const unsigned int side : {0u, 1u})
+          body.loads[face_index(0, side)].pressure = 0.5 * pressure;
+      const auto state = Problem<2>(scene).solve();
+      EXPECT_LE(state.certificate.worst(), 1e-10);
+      EXPECT_GT(state.slipping_contacts, 0u);
+      EXPECT_NEAR(state.contact_force[0], 0., 1e-8);
+    }
+}
+
 /// Friction alone holds the bodies across a gap that the loads close.
 TEST(StateFriction, BalancedBodiesHoldAcrossAGap)
 {
