@@ -31,6 +31,23 @@ double rate_along(const Slip &slip, const MultiVector &rates, const unsigned int
   return rate;
 }
 
+/// Return whether a slip moves in one of the motions with the @p rates, one per column. Bodies that
+/// move together have rates that are rounding errors; B and R are orthonormal except for a few
+/// rows. Collective.
+bool moves_slips(const MultiVector &rates, const std::vector<Slip> &slips, MPI_Comm comm)
+{
+  double fastest[2] = {0., 1.}; // of slips, of all rows
+  for (unsigned int k = 0; k < rates.n_columns(); ++k)
+    {
+      for (const Slip &slip : slips)
+        fastest[0] = std::max(fastest[0], std::abs(rate_along(slip, rates, k)));
+      for (unsigned int i = 0; i < rates.n_rows(); ++i)
+        fastest[1] = std::max(fastest[1], std::abs(rates(i, k)));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, fastest, 2, MPI_DOUBLE, MPI_MAX, comm);
+  return fastest[0] > slow * fastest[1];
+}
+
 double length_of_tangents(const FrictionCone &cone, const MultiVector &x)
 {
   double square = 0.;
@@ -109,22 +126,10 @@ bool HeldSets::change(const FreeSet     &free_set,
   forces.add(1., given_forces(rows));
   MultiVector missing = problem.e();
   missing.add(-1., problem.apply_G(forces));
-  const double size       = load_scale(problem, forces, scale);
-  const auto   load       = norms(transpose_times(V, problem.e()), MPI_COMM_SELF)[0];
-  const auto   rates_V    = problem.apply_Gt(V);
-  double       fastest[2] = {0., 0.}; // of slips, of all rows
-  for (unsigned int k = 0; k < V.n_columns(); ++k)
-    {
-      for (const Slip &slip : rows.slips())
-        fastest[0] = std::max(fastest[0], std::abs(rate_along(slip, rates_V, k)));
-      for (unsigned int i = 0; i < problem.n_owned(); ++i)
-        fastest[1] = std::max(fastest[1], std::abs(rates_V(i, k)));
-    }
-  MPI_Allreduce(MPI_IN_PLACE, fastest, 2, MPI_DOUBLE, MPI_MAX, comm);
-  const bool is_loaded = load > balance_tolerance * size;
-  // Bodies that move together have rates that are rounding errors. B and R are orthonormal except
-  // for a few rows.
-  if (!is_loaded && fastest[0] <= slow * std::max(fastest[1], 1.))
+  const double size      = load_scale(problem, forces, scale);
+  const auto   load      = norms(transpose_times(V, problem.e()), MPI_COMM_SELF)[0];
+  const bool   is_loaded = load > balance_tolerance * size;
+  if (!is_loaded && !moves_slips(problem.apply_Gt(V), rows.slips(), comm))
     return false;
   const auto  part   = transpose_times(V, missing);
   MultiVector motion = times(V, part);
