@@ -172,7 +172,8 @@ void Results<dim>::warn_of_weak_contacts(const States &states, const std::string
   for (const auto &state : states)
     weak_contacts += state.weak_contacts;
   warn({counted(weak_contacts, "contact is", "contacts are") +
-        " weakly active (neither force nor gap): functions of the displacement have only one-sided "
+        " weakly active (neither force nor gap, or about to slip): functions of the displacement "
+        "have only one-sided "
         "derivatives" +
         more});
 }

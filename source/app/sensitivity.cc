@@ -1,4 +1,5 @@
 #include <snug/app/sensitivity.h>
+#include <snug/sensitivity/bound_derivatives.h>
 #include <snug/sensitivity/methods.h>
 
 #include <algorithm>
@@ -55,7 +56,8 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
                                [](const auto &state) { return state.weak_contacts > 0; });
   if (one_sided)
     results.warn_of_weak_contacts(states);
-  one_sided = one_sided && !with_steps; // the increments of the steps are not known
+  // Increments over load steps and of Tresca's bounds are not known.
+  one_sided = one_sided && !with_steps && !sensitivity::has_bounds(*problem.solver, states.front());
   for (const Method &method : methods())
     {
       // before differences, which leave the solver at another design

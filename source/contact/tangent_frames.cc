@@ -169,9 +169,9 @@ TangentFrames<dim>::nodes_at_foot(const unsigned int slave) const
   return {without_hanging(at_foot, pair.surface), without_hanging(around_foot, pair.surface)};
 }
 
-/// Choose the nodes for the couple: those of the row on the master, or those of the face opposite
-/// to the slave node where the former do not spread in all tangential directions, as at nodes
-/// that match.
+/// Choose the nodes for the couple: those of the row on the master, or those of the faces around
+/// the foot of the slave node where the former do not spread in all tangential directions, as at
+/// nodes that match.
 template <int dim>
 void TangentFrames<dim>::set_masters(const Row<dim>                  &row,
                                      const std::vector<unsigned int> &around_foot,

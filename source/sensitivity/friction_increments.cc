@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/qp/row_set.h>
+#include <snug/sensitivity/bound_derivatives.h>
 #include <snug/sensitivity/friction_increments.h>
 #include <snug/sensitivity/tangent_system.h>
 
@@ -188,6 +189,8 @@ KktVectors friction_increments(const state::StateSolver<dim>  &solver,
                                const state::ContactState<dim> &state,
                                const KktVectors               &data)
 {
+  if (has_bounds(solver, state))
+    throw SolveError("one-sided derivatives are not known under the Tresca law");
   const auto     &feti = solver.feti(state);
   const MPI_Comm  comm = feti.context().communicator();
   qp::MultiVector w    = feti.linearization().multiply_B(state.u);

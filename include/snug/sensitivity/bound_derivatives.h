@@ -11,7 +11,7 @@ template <int dim>
 bool has_bounds(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
 
 /// Return b' n^ on the owned rows of contacts that slip in the direction n^, one column per
-/// velocity; zero in other rows. No columns if the friction has_bounds() is false for.
+/// velocity; zero in other rows. No columns where has_bounds() is false.
 template <int dim>
 qp::MultiVector bound_derivatives(const state::StateSolver<dim>       &solver,
                                   const state::ContactState<dim>      &state,
