@@ -81,7 +81,7 @@ void remove_results(const RunContext &context, const std::vector<std::string> &d
   static const std::regex ours(
     "(solution|contact)\\.pvd|solution-\\d{4,}(\\.\\d{4,}\\.vtu|\\.pvtu)|"
     "contact-\\d{4,}\\.(vtu|csv)|history\\.csv|summary\\.json|"
-    "surface\\.stl|(profile|control-points)\\.csv|journal\\.txt|"
+    "surface\\.stl|bodies\\.(msh|inp)|(profile|control-points)\\.csv|journal\\.txt|"
     "warm-start\\.\\d+\\.[01]");
   static const std::regex of_qp("(K|B|R|f|g|bounded|u|lambda)\\.(petsc|mtx)");
   throw_collectively(context.communicator(), [&] {
