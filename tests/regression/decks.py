@@ -117,7 +117,7 @@ end
 FACES = ("left", "right", "front", "back", "bottom", "top")
 # Damage of ccx-blocks.inp, and words of the message
 WRONG = [
-    ("*NSET, NSET=NFIX, GENERATE\n1,9", "*NSET, NSET=NFIX\n1,x", ["line 29", "'x'", "neither a set"]),
+    ("*NSET, NSET=NFIX, GENERATE\n1,9", "*NSET, NSET=NFIX\n1,x", ["line 49", "'x'", "neither a set"]),
     ("*NSET, NSET=NFIX, GENERATE\n1,9", "*NSET, NSET=NFIX\n1,99", ["the node 99"]),
     ("NSET=NFIX, GENERATE", "NSET=NFIX, INSTANCE=a, GENERATE", ["no instance 'a'"]),
     ("ELOW, S2", "ELOW, S7", ["has no face 'S7'"]),
@@ -135,7 +135,7 @@ WRONG = [
     ("11,P2,10.", "11,P2,ten", ["'ten' is not a number"]),
     ("** two blocks", "two blocks", ["needs a deck"]),
     ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=B31", ["element type 'B31'"]),
-    ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["*INCLUDE", "is not supported"]),
+    ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["more.inp"]),
     ("*NODE, NSET=NALL", "*INSTANCE, NAME=a, PART=b\n*NODE, NSET=NALL", ["has no *END"]),
     ("*NODE, NSET=NALL", "*PART, NAME=b\n*PART, NAME=c\n*NODE, NSET=NALL", ["more than one part"])]
 
@@ -187,6 +187,27 @@ def check_decks(runner, meshes):
         written.write_text(done.stdout)
         found, _ = runner.summary(name + ".prm.out", written, *EXACT)
         runner.compare(f"parameter file of {name}", found, expected, 1e-9)
+
+
+def check_includes(runner, meshes):
+    """The mesh of a deck in a file of its own, as CalculiX users have it; errors name the file."""
+    good = (meshes / "ccx-blocks.inp").read_text()
+    mesh, rest = good[:good.index("*NSET")], good[good.index("*NSET"):]
+    scene = runner.folder / "split" / "model.inp"
+    (scene.parent / "parts").mkdir(parents=True)
+    scene.write_text("** model\n*include, input=parts/all.msh\n" + rest)
+    (scene.parent / "parts" / "all.msh").write_text(mesh)
+    expected, _ = runner.summary("whole", meshes / "ccx-blocks.inp", *EXACT)
+    found, _ = runner.summary("split.out", scene, *EXACT, ranks=2)
+    runner.compare("included mesh", found, expected, 1e-12)
+    (scene.parent / "parts" / "all.msh").write_text(mesh.replace("1,0,0,0", "1,0,zero,0"))
+    done = runner.run(scene)
+    runner.require("error of an included file", done.returncode == 2 and
+                   "'parts/all.msh', line 3: 'zero'" in done.stdout, done.stdout)
+    (scene.parent / "parts" / "all.msh").write_text("*INCLUDE, INPUT=parts/all.msh\n")
+    done = runner.run(scene)
+    runner.require("files that include each other", done.returncode == 2 and
+                   "more than 10 files" in done.stdout, done.stdout)
 
 
 def check_wrong_decks(runner, meshes):
@@ -258,6 +279,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         runner = Runner(options.snug.resolve(), options.mpiexec, pathlib.Path(folder))
         check_decks(runner, options.meshes)
+        check_includes(runner, options.meshes)
         check_wrong_decks(runner, options.meshes)
         check_calculix(runner, *check_read_back(runner))
     print("\n".join(runner.wrong) or "all right")
