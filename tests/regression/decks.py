@@ -177,7 +177,7 @@ def check_decks(runner, meshes):
     scene.write_text(BLOCKS)
     expected, _ = runner.summary("blocks", scene, *EXACT)
     for name, lines in LEFT_OUT.items():
-        found, _ = runner.summary(name, meshes / name, *EXACT, ranks=2)
+        found, _ = runner.summary(name + ".out", meshes / name, *EXACT, ranks=2)
         runner.compare(name, found, expected, 1e-9)
         done = runner.run("--translate", meshes / name)
         runner.require(f"{name} lists what it leaves out",

@@ -13,6 +13,14 @@ inline std::string deck_number(const unsigned int index)
   return std::to_string(index + 1);
 }
 
+/// Return @p x with at most 20 characters, which CalculiX reads: exactly if these suffice,
+/// otherwise with 14 digits.
+std::string deck_real(double x);
+
+/// Return a name with - in place of the characters other than letters, digits, . and _, because
+/// CalculiX ignores blanks and separates by commas.
+std::string deck_name(std::string name);
+
 /// Return the lines of *EQUATION: sum_i weight_i u_i = 0, with items "node, component, weight".
 std::string deck_equation(const std::vector<std::string> &items);
 
