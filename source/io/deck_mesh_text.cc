@@ -134,13 +134,17 @@ std::string DeckMeshText<dim>::side(const typename WholeMesh<dim>::Face &face) c
 template <int dim>
 std::string DeckMeshText<dim>::sets() const
 {
+  // CalculiX accepts no node in *BOUNDARY that *EQUATION eliminates.
+  std::set<unsigned int> eliminated;
+  for (const auto &hanging : whole.hanging)
+    eliminated.insert(hanging.node);
   std::map<std::string, std::set<unsigned int>> nodes;
   std::map<std::string, std::string>            faces;
   for (const auto &face : whole.faces)
     {
       const auto name = deck_name(boundary_name(mesh, scene, face.body, face.boundary));
       for (const unsigned int node : face.nodes)
-        if (has(node))
+        if (has(node) && eliminated.count(node) == 0)
           nodes[name].insert(node);
       faces[name] += side(face);
     }

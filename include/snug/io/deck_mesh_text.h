@@ -42,7 +42,7 @@ public:
   std::string nodes() const;
   /// Return *ELEMENT of each region, and the element sets of bodies with several regions.
   std::string elements() const;
-  /// Return a node set and a surface of element faces for each boundary.
+  /// Return a node set, without hanging nodes, and a surface of element faces for each boundary.
   std::string sets() const;
   /// Return the line "element, S3" of a surface.
   std::string side(const typename WholeMesh<dim>::Face &face) const;
