@@ -25,7 +25,7 @@ MOMENT = values({"state.responses.tip": 25 / (2 * STIFFNESS), "state.compliance"
 MESH_REGIONS = values({"state.contact_force.0": .3e6, "state.responses.end": -.3 * (
     1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))})
 # Stress 10 over an area of 4 and a height of 2, between smooth walls
-DECK_BLOCKS = values({"state.contact_force.2": 40,
+DECK_BLOCKS = values({"state.contact_force.2": -40,
                       "state.responses.top": -10 * 2 / guided_modulus(1000, .3)})
 # Of pressure 5 on the box 2 x 1 x 1.
 RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
