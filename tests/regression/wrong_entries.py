@@ -93,6 +93,8 @@ def input_cases(body, slave, master):
         wrong("pair of the same face", "Contact/Pairs", f"{slave}: {slave}"),
         wrong("model of another dimension", "Model", "axisymmetric", ["solid"]),
         wrong("thickness of a solid", "Thickness", "2", ["solid"]),
+        wrong("one unit", "Units", "mm", ["length, force"]),
+        wrong("equal units", "Units", "N, N", ["two different names"]),
         wrong("unknown formulation", own + "Formulation", "b-bar", ["B-bar"]),
         wrong("obstacle that is not there", "Contact/Pairs",
               f"{slave}: floor", ["body.boundary"]),
