@@ -132,7 +132,7 @@ def input_cases(body, slave, master):
         wrong("disc in 3D", own + "Mesh", "disc", ["Dimension = 2"]),
         wrong("hole larger than the ring", own + "Inner radius", "2",
               others={own + "Mesh": "ring", own + "Supports": ""}),
-        wrong("no mesh file", own + "Mesh file", "",
+        wrong("no mesh file", own + "File", "",
               others={own + "Mesh": "file"}),
         wrong("flat box", own + "Box size", "1, 1, 0"),
         wrong("no tolerance", "Solver/Relative tolerance", "0"),
