@@ -14,7 +14,7 @@ import numpy as np
 from PIL import Image
 
 COLOURS, CHANGES = "viridis", "RdBu_r"
-WIDTH, HEIGHT = 11., 3.6  # of a picture and, at most, of a panel [inches]
+WIDTH, LOW, HEIGHT = 11., 2.6, 3.6  # of a picture; of panels, at least and at most [inches]
 LEFT, RIGHT, TOP, BOTTOM, SCALE = .88, .18, .3, .5, .95  # margins of a panel
 plt.rcParams.update({"font.size": 10., "axes.titlesize": 10., "legend.fontsize": 9.})
 
@@ -61,14 +61,16 @@ def size_of(panel, height):
 
 
 def arrange(groups):
-    """Return rows of panels: groups of panels belong together, and those that fit share a row."""
+    """Return rows of panels. Panels share a row while they are high enough in it; those of a group
+    share one if possible."""
     rows = []
     for group in groups:
-        wide = sum(size_of(panel, .7 * HEIGHT)[0] for panel in (rows[-1] if rows else []) + group)
-        if rows and wide <= WIDTH:
-            rows[-1] = rows[-1] + group
-        else:
-            rows.append(list(group))
+        if not rows or height_of(rows[-1] + group) < LOW:
+            rows.append([])
+        for panel in group:
+            if rows[-1] and height_of(rows[-1] + [panel]) < LOW:
+                rows.append([])
+            rows[-1].append(panel)
     return rows
 
 

@@ -60,10 +60,11 @@ def of_quarter(summary):
 
 def gear_pair(_):
     """Return the pressure of cylinders with the radii of the involutes at the pitch point, along x,
-    which the flanks are inclined to by the pressure angle."""
+    to which the flanks are inclined by the pressure angle."""
     alpha, radii = math.radians(20), (40., 60.)
-    return hertz_line(math.sin(alpha) / sum(1 / r for r in radii), 2 * ((206000, .3),),
-                      lambda _: 1e5 / (40. * math.cos(alpha)) / 10., 40., math.cos(alpha))(_)
+    known = hertz_line(math.sin(alpha) / sum(1 / r for r in radii), 2 * ((206000, .3),),
+                       lambda _: 1e5 / (40. * math.cos(alpha)) / 10., 40., math.cos(alpha))
+    return known(None)
 
 
 def flat_punch(summary):
@@ -110,7 +111,7 @@ PICTURES = {
     "flat-punch": Picture("flat-punch", {"flat-punch": PRESSURE}, known=flat_punch),
     "floating-block": Picture("floating-block", {"floating-block-wedge": STRESS},
                               ["Body block/Curved faces=bottom: -0.02*x"]),
-    "gear-cycle": Picture("gear-cycle", {}),
+    "gear-cycle": Picture("gear-cycle", {"gear-cycle": "mesh-20/" + STRESS}),
     "gear-pair": Picture("gear-pair", {"gear-pair": STRESS, "gear-pair-pressure": PRESSURE},
                          known=gear_pair),
     "gmsh-pin": Picture("gmsh-pin", {"gmsh-pin": PRESSURE},
@@ -138,7 +139,7 @@ PICTURES = {
     "pin-in-hole": Picture("pin-in-hole", {"pin-in-hole": PRESSURE}, known=pin_in_hole),
     "point-contact": Picture("point-contact", {"point-contact": PRESSURE},
                              known=hertz_point(4., EQUAL, of_quarter)),
-    "press-fit": Picture("press-fit", {"press-fit": PRESSURE}),
+    "press-fit-bore": Picture("press-fit-bore", {"press-fit": PRESSURE}),
     "rigid-sphere": Picture("rigid-sphere", {"rigid-sphere": STRESS}),
     "shrink-fit": Picture("shrink-fit", {"shrink-fit": STRESS}),
     "shrunk-hub": Picture("shrunk-hub", {"shrunk-hub": PRESSURE, "shrunk-hub-shape": SHAPE},

@@ -66,14 +66,20 @@ def finish(axis, place, label):
     axis.grid(True, alpha=0.3)
 
 
-def curve_group(name, places, place, drops, change, units):
-    """Return the panels of the heights of both shapes, and of the change; of pieces that turn too
-    far, of the change only."""
-    panels = [] if drops is None else [Panel(1.4, f"{name}, height against the highest point", lambda axis: draw_heights(
-        axis, places, drops, place, units))]
-    label = units.label("change", units.length)
-    return panels + [Panel(1.4 if panels else 2., f"{name}, change along the normal",
-                           lambda axis: draw_change(axis, places, change, place, label))]
+def heights_panel(name, places, place, drops, units):
+    return Panel(1.4, f"{name}, height against the highest point",
+                 lambda axis: draw_heights(axis, places, drops, place, units))
+
+
+def curve_group(piece, units):
+    """Return the panels of a 2D piece: the heights of both shapes, unless the piece turns too far,
+    and the change."""
+    place, change = units.place("length along the face"), units.label("change", units.length)
+    panels = [heights_panel(piece.name, piece.arc_length, place, piece.drops, units)] \
+        if piece.is_flat else []
+    return panels + [Panel(1.4 if panels else 2., f"{piece.name}, change along the normal",
+                           lambda axis: draw_change(axis, piece.arc_length, piece.move, place,
+                                                    change))]
 
 
 def draw_map(axis, view, places, values, ends, colours, units, stretched):
@@ -85,8 +91,7 @@ def draw_map(axis, view, places, values, ends, colours, units, stretched):
 
 
 def map_panels(piece, units):
-    """Return the maps of both shapes and of the change, seen along the mean normal, and their
-    curves along the middle."""
+    """Return the maps of both shapes and of the change, seen along the mean normal."""
     view = along_axis(piece.normal)
     places = view.project(piece.points)
     low, high = places.min(axis=0), places.max(axis=0)
@@ -104,8 +109,8 @@ def map_panels(piece, units):
         for title, values, of, colours, label in drawn]
 
 
-def middle_curves(piece, units):
-    """Return the panels of the curves along the longer direction of a 3D piece, in its middle."""
+def middle_panel(piece, units):
+    """Return the panel of the heights along the longer direction of a 3D piece, in its middle."""
     view = along_axis(piece.normal)
     places = view.project(piece.points)
     low, high = places.min(axis=0), places.max(axis=0)
@@ -113,11 +118,9 @@ def middle_curves(piece, units):
     line = np.tile((low + high) / 2., (101, 1))
     line[:, along] = np.linspace(low[along], high[along], 101)
     mesh = Triangulation(places[:, 0], places[:, 1])
-    curves = [LinearTriInterpolator(mesh, values)(line[:, 0], line[:, 1])
-              for values in (*piece.drops, piece.move)]
+    drops = [LinearTriInterpolator(mesh, drop)(line[:, 0], line[:, 1]) for drop in piece.drops]
     name = f"{piece.name}, {view.names[1 - along]} = {line[0, 1 - along]:.4g}"
-    return curve_group(name, line[:, along], units.place(view.names[along]), curves[:2], curves[2],
-                       units)
+    return heights_panel(name, line[:, along], units.place(view.names[along]), drops, units)
 
 
 def draw_profile(directory, units):
@@ -125,11 +128,10 @@ def draw_profile(directory, units):
     groups = []
     for piece in read_pieces(existing(os.path.join(directory, "profile.csv"))):
         if piece.arc_length is not None:
-            groups.append(curve_group(piece.name, piece.arc_length,
-                                      units.place("length along the face"),
-                                      piece.drops if piece.is_flat else None, piece.move, units))
+            groups.append(curve_group(piece, units))
         elif piece.is_flat:
-            groups += [map_panels(piece, units), middle_curves(piece, units)]
+            maps = map_panels(piece, units)
+            groups += [maps[:2], [maps[2], middle_panel(piece, units)]]
     if groups:
         compose("Shaped faces without load, before and after the optimization", groups, directory,
                 "shape.png")

@@ -132,7 +132,7 @@ void VtuGrid<d, dim>::append(const std::vector<double> &values, std::vector<Arra
     {
       for (unsigned int i = 0; i < array.components; ++i)
         array.values.push_back(static_cast<float>(values[c++]));
-      array.values.insert(array.values.end(), array.written - array.components, 0.f);
+      array.values.insert(array.values.end(), array.n_written() - array.components, 0.f);
     }
   AssertDimension(c, values.size());
 }
