@@ -53,13 +53,16 @@ Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 {
   summary.task = to_text(of.scene.task);
   add_units(of.scene, summary);
+  std::vector<std::string> body_names;
+  for (const auto &body : of.scene.bodies)
+    body_names.push_back(body.name);
   for (unsigned int c = 0; c < of.n_load_cases(); ++c)
     {
       const std::string directory = of.n_load_cases() == 1
                                       ? problem->scene.output_directory
                                       : path(problem->scene.load_cases[c].name);
-      pictures.push_back({io::FieldOutput<dim>(directory, problem->scene.output),
-                          io::ContactOutput<dim>(directory, problem->scene.output)});
+      pictures.push_back({io::FieldOutput<dim>(directory, problem->scene.output, body_names),
+                          io::ContactOutput<dim>(directory, problem->scene.output, body_names)});
     }
 }
 

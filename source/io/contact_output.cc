@@ -1,6 +1,7 @@
 #include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/io/contact_output.h>
+#include <snug/io/state_files.h>
 #include <snug/io/text_file.h>
 #include <snug/io/vtu_grid.h>
 
@@ -97,68 +98,116 @@ std::vector<Quantity> quantities(const bool friction)
   return result;
 }
 
-/// Return the VTU text. A node on the edge of two pairs has a point in each, because each pair
-/// shows its own values on its own faces.
+/// This class makes the grids of the contact boundaries. A node on the edge of two pairs has a
+/// point in each, because each pair shows its own values on its own faces.
 template <int dim>
-std::string faces_text(const Sources<dim>             &sources,
-                       const state::ContactState<dim> &state,
-                       const SurfaceFields<dim>       &fields,
-                       const unsigned int              compression)
+class FaceBlocks
 {
-  const auto                                   &pairs = sources.pairs;
-  std::vector<std::vector<state::ContactPoint>> nodal;
-  const auto                                    candidate = candidates<dim>(sources);
-  for (unsigned int p = 0; p < pairs.size(); ++p)
-    nodal.push_back(nodal_points<dim>(sources, p, state.contact));
-  // The values below are in the order of these quantities.
-  const bool            friction = state.has_friction();
-  VtuGrid<dim - 1, dim> grid(quantities<dim>(friction), {});
-  std::map<std::tuple<unsigned int, unsigned int, int>, unsigned int> number; // node, pairs
-  for (const auto &face : sources.surface.faces())
-    {
-      const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
-        return contact::is_on(face, of.pair.slave);
-      });
-      // A face shows one pair, which is its first pair.
-      const bool         slave = found != pairs.end();
-      const unsigned int p     = found - pairs.begin();
-      const int pair = slave ? narrow<int>(found->pair_of({face.body, face.boundary}, {})) : -1;
-      std::vector<unsigned int> corners;
-      for (const unsigned int node : face.nodes)
-        {
-          const auto [place, is_new] = number.try_emplace({node, p, pair}, 0);
-          if (is_new)
-            {
-              // A master side may share its edge with a slave side.
-              const auto          point  = slave ? nodal[p][node] : state::ContactPoint();
-              std::vector<double> values = {point.pressure,
-                                            point.gap,
-                                            point.force,
-                                            point.area,
-                                            double(point.active),
-                                            double(point.weak),
-                                            double(slave && candidate[p][node]),
-                                            double(slave),
-                                            double(pair),
-                                            double(face.body)};
-              for (unsigned int c = 0; c < dim; ++c)
-                values.push_back(fields.displacement[node][c]);
-              for (unsigned int c = 0; c < dim; ++c)
-                values.push_back(fields.positions[node][c] - fields.reference[node][c]);
-              for (unsigned int c = 0; friction && c < dim; ++c)
-                values.push_back(point.traction[c]);
-              for (unsigned int c = 0; friction && c < dim; ++c)
-                values.push_back(point.slip[c]);
-              if (friction)
-                values.push_back(double(point.friction));
-              place->second = grid.add_point(fields.positions[node], values);
-            }
-          corners.push_back(place->second);
-        }
-      grid.add_cell(corners, {});
-    }
-  return vtu({grid.piece(compression)});
-}
+public:
+  FaceBlocks(const Sources<dim>             &sources,
+             const state::ContactState<dim> &state,
+             const SurfaceFields<dim>       &fields)
+    : sources(sources)
+    , fields(fields)
+    , friction(state.has_friction())
+    , candidate(candidates<dim>(sources))
+    , empty(quantities<dim>(friction), {})
+  {
+    for (unsigned int p = 0; p < sources.pairs.size(); ++p)
+      nodal.push_back(nodal_points<dim>(sources, p, state.contact));
+    for (const auto &face : sources.surface.faces())
+      add(face);
+  }
+
+  std::string declarations() const { return empty.declarations(); }
+
+  /// Return the blocks with the names of bodies and boundaries, with their cells on rank 0 alone,
+  /// because all ranks have all faces.
+  std::vector<Block> blocks(const std::vector<std::string> &body_names,
+                            const unsigned int              compression) const
+  {
+    const bool writes = dealii::Utilities::MPI::this_mpi_process(sources.mesh.communicator()) == 0;
+    std::vector<Block> result;
+    for (const auto &[side, of_side] : grids)
+      result.push_back({"boundaries",
+                        body_names[side.first] + '.' +
+                          sources.mesh.geometry(side.first).boundary_names()[side.second],
+                        writes ? of_side.grid.piece(compression) : std::string()});
+    return result;
+  }
+
+private:
+  using Face = typename mesh::Surface<dim>::Face;
+
+  struct Grid
+  {
+    VtuGrid<dim - 1, dim>                grid;
+    std::map<unsigned int, unsigned int> number; ///< of the point of a node
+  };
+
+  void add(const Face &face)
+  {
+    const auto &pairs = sources.pairs;
+    const auto  found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
+      return contact::is_on(face, of.pair.slave);
+    });
+    // A face shows one pair, which is its first pair. All faces of a boundary have the same one.
+    const unsigned int p = found - pairs.begin();
+    auto &[grid, number] =
+      grids.try_emplace({face.body, face.boundary}, Grid{empty, {}}).first->second;
+    std::vector<unsigned int> corners;
+    for (const unsigned int node : face.nodes)
+      {
+        const auto [place, is_new] = number.try_emplace(node, 0);
+        if (is_new)
+          place->second = grid.add_point(fields.positions[node], values(face, node, p));
+        corners.push_back(place->second);
+      }
+    grid.add_cell(corners, {});
+  }
+
+  /// Return the values of a node in the order of quantities(). @param[in] p The joined pair of the
+  /// slave side, or the number of pairs.
+  std::vector<double> values(const Face &face, const unsigned int node, const unsigned int p) const
+  {
+    // A master side may share its edge with a slave side.
+    const bool slave = p < nodal.size();
+    const int  pair =
+      slave ? narrow<int>(sources.pairs[p].pair_of({face.body, face.boundary}, {})) : -1;
+    const auto          point  = slave ? nodal[p][node] : state::ContactPoint();
+    std::vector<double> result = {point.pressure,
+                                  point.gap,
+                                  point.force,
+                                  point.area,
+                                  double(point.active),
+                                  double(point.weak),
+                                  double(slave && candidate[p][node]),
+                                  double(slave),
+                                  double(pair),
+                                  double(face.body)};
+    const auto          append = [&](const auto &vector) {
+      for (unsigned int c = 0; c < dim; ++c)
+        result.push_back(vector[c]);
+    };
+    append(fields.displacement[node]);
+    append(fields.positions[node] - fields.reference[node]);
+    if (friction)
+      {
+        append(point.traction);
+        append(point.slip);
+        result.push_back(double(point.friction));
+      }
+    return result;
+  }
+
+  const Sources<dim>                                   &sources;
+  const SurfaceFields<dim>                             &fields;
+  const bool                                            friction;
+  const std::vector<std::vector<bool>>                  candidate;
+  const VtuGrid<dim - 1, dim>                           empty;
+  std::vector<std::vector<state::ContactPoint>>         nodal; ///< per joined pair and node
+  std::map<std::pair<unsigned int, unsigned int>, Grid> grids; ///< of (body, boundary)
+};
 
 /// Return one line per row. Nodes of several pairs have several lines. Positions are those of the
 /// slaves.
@@ -208,15 +257,16 @@ std::string ContactOutput<dim>::write(const Sources                  &of,
                                   placed.turned(of.surface.gather(state.displacement))};
   const std::string        stem = "contact-" + padded(series.size(), 4);
   // Extend the series on all ranks, because the next stem depends on its size.
-  series.emplace_back(time, stem + ".vtu");
-  const MPI_Comm comm = of.mesh.communicator();
+  series.emplace_back(time, stem + ".vtm");
+  const MPI_Comm        comm = of.mesh.communicator();
+  const FaceBlocks<dim> faces(of, state, fields);
+  write_state(comm, directory, stem, faces.blocks(body_names, compression), faces.declarations(),
+              1);
   // Rank 0 writes. If it fails, all ranks fail, because otherwise all other ranks would wait for
   // rank 0 in the next reduction.
   throw_collectively(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    write_text_file(directory + "/" + stem + ".vtu",
-                    faces_text<dim>(of, state, fields, compression));
     write_text_file(directory + "/" + stem + ".csv", rows_text<dim>(of, state, fields));
     write_text_file(directory + "/contact.pvd", pvd(series));
   });

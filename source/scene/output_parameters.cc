@@ -23,8 +23,8 @@ void OutputParameters::declare(Entries &entries)
     "9 the smallest files.");
   entries.add(
     "Ranks per file", ranks_per_file, at_least(1),
-    "The number of ranks whose cells share one file solution-STATE.GROUP.vtu. The first of "
-    "these ranks writes the file and needs memory for all of its content.");
+    "The number of ranks whose cells share a file of each body and boundary. The first of "
+    "these ranks writes these files and needs memory for all of their content.");
   entries.add(
     "Export QP", export_qp,
     "Whether to write the quadratic program of the first state and its solution into qp/, "

@@ -12,9 +12,9 @@
 
 namespace snug::io {
 /**
- * The series contact.pvd of contact faces. State number i is contact-000i.vtu (all faces of both
- * sides, undeformed, in the position of the load case) with a table of the contact rows beside it,
- * contact-000i.csv. Rank 0 writes.
+ * The series contact.pvd of contact faces. State number i is contact-000i.vtm with a block per
+ * boundary of both sides, undeformed, in the position of the load case, and contact-000i.pvtu with
+ * all of them, see write_state(). The table of the contact rows is contact-000i.csv. Rank 0 writes.
  *
  * | field               | meaning                          | units           |
  * |---------------------|----------------------------------|-----------------|
@@ -60,9 +60,11 @@ public:
     const contact::PlacedSurface<dim>               &placed;
   };
 
-  /// Files go to the directory @p directory, which must exist.
-  ContactOutput(const std::string &directory, const scene::OutputParameters &parameters)
-    : directory(directory), compression(parameters.compression)
+  /// Files go to the directory @p directory, which must exist. Blocks have the @p body_names.
+  ContactOutput(const std::string              &directory,
+                const scene::OutputParameters  &parameters,
+                const std::vector<std::string> &body_names)
+    : directory(directory), compression(parameters.compression), body_names(body_names)
   {}
 
   /// Add @p state to the series with the time @p time, and return the name of its file.
@@ -73,6 +75,7 @@ public:
 private:
   std::string                                 directory;
   unsigned int                                compression;
+  std::vector<std::string>                    body_names;
   std::vector<std::pair<double, std::string>> series;
 };
 

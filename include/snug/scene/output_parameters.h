@@ -17,9 +17,9 @@ struct OutputParameters
 {
   Verbosity verbosity = Verbosity::normal; ///< of the log
   /// fields besides displacement and body
-  std::vector<std::string> fields         = {"stress",    "von_mises",           "region",
-                                             "subdomain", "design_displacement", "shape_gradient",
-                                             "error"};
+  std::vector<std::string> fields         = {"stress",         "von_mises", "principal_stress",
+                                             "region",         "subdomain", "design_displacement",
+                                             "shape_gradient", "error"};
   unsigned int             compression    = 1;  ///< compression level of zlib
   unsigned int             ranks_per_file = 16; ///< number of ranks that share a file of the fields
   bool                     export_qp      = false;
