@@ -35,8 +35,10 @@ public:
     const bool needs_no_file = options.print_parameters || options.help || options.version;
     if (options.file.empty() && !needs_no_file)
       throw InputError("no parameter file" + hint());
-    if (options.advise + options.estimate + options.validate + options.restart > 1)
-      throw InputError("only one of --advise, --estimate, --validate and --restart is allowed" +
+    if (options.advise + options.estimate + options.validate + options.restart + options.translate >
+        1)
+      throw InputError("only one of --advise, --estimate, --validate, --restart and --translate is "
+                       "allowed" +
                        hint());
     return options;
   }
@@ -100,6 +102,8 @@ private:
       return &options.advise;
     if (name == "--estimate")
       return &options.estimate;
+    if (name == "--translate")
+      return &options.translate;
     if (name == "--print-parameters")
       return &options.print_parameters;
     if (name == "--help" || name == "-h")
@@ -137,9 +141,11 @@ std::string usage()
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
                   [--petsc "-NAME VALUE ..."]...
     snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
+    snug --translate FILE.inp
     snug --validate FILE.prm | --print-parameters | --help | --version
 
-Shape optimization of elastic bodies in contact, with or without friction.
+Shape optimization of elastic bodies in contact, with or without friction. FILE.prm may
+also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
     mpirun -np 4 snug FILE.prm    run on 4 MPI ranks
 
     --set "Subsection/Entry=value"
@@ -156,6 +162,8 @@ Shape optimization of elastic bodies in contact, with or without friction.
                         (symmetry, rigid bodies, needless cells) and defects (locking)
     --estimate          make the meshes and print the memory and the time of a run;
                         --ranks N for runs on N MPI ranks
+    --translate         print the parameter file of a deck of Abaqus or CalculiX, and
+                        what of the deck it lacks, with line numbers
     --print-parameters  print all entries, their defaults and meanings (Markdown)
     --help, --version
 

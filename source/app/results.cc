@@ -265,6 +265,7 @@ void Results<dim>::add_last(const double                  time,
   last_errors        = known.empty() ? estimate(states) : known;
   const auto &errors = last_errors;
   draw(time, states, shape_gradient, errors);
+  export_meshes(states.front());
   // contact may be paired anew before the summary is written
   count_rows();
   const auto summarized = [&](const unsigned int c) {

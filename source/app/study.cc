@@ -6,6 +6,7 @@
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
 #include <snug/base/petsc_options.h>
+#include <snug/deck/translation.h>
 #include <snug/feti/sparse_factor.h>
 #include <snug/io/summary.h>
 #include <snug/io/text_file.h>
@@ -15,6 +16,7 @@
 #include <petscblaslapack.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -298,15 +300,51 @@ void validate(RunContext &context, const scene::Scene &scene)
     validate_in<3>(context, scene);
 }
 
+namespace {
+/// Replace a deck by its parameter file, and return what the parameter file lacks.
+/// @throws InputError naming the file, also if the text must be a deck, but is not.
+std::vector<std::string> translate_deck(scene::SceneSource &source, const bool must_be_deck)
+{
+  if (!deck::is_deck(source.text))
+    {
+      if (must_be_deck)
+        throw InputError(source.file + ": option '--translate' needs a deck of Abaqus or CalculiX, "
+                                       "which begins with a keyword such as *NODE");
+      return {};
+    }
+  try
+    {
+      const auto translation =
+        deck::translate(source.text, std::filesystem::path(source.file).filename().string());
+      source.text = translation.text;
+      source.file += " (translated)";
+      return translation.left_out;
+    }
+  catch (const InputError &error)
+    {
+      throw InputError(source.file + ": " + error.what());
+    }
+}
+} // namespace
+
 int run(const Options &options)
 {
   reserve_blas_buffer();
   RunContext         context(MPI_COMM_WORLD, std::cout);
-  const scene::Scene scene = scene::read_scene(
-    {options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
-     options.sets, options.output,
-     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
+  scene::SceneSource source = {
+    options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
+    options.sets, options.output,
+    [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }};
+  const auto left_out = translate_deck(source, options.translate);
+  if (options.translate)
+    {
+      context.out(Verbosity::quiet) << source.text << std::flush;
+      return 0;
+    }
+  const scene::Scene scene = scene::read_scene(source);
   context.set_verbosity(scene.output.verbosity);
+  for (const auto &line : left_out)
+    context.warn(options.file + ": not translated: " + line);
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
     scene.dimension == 2 ? estimate_in<2>(context, scene, options.ranks)

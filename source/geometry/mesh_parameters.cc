@@ -76,6 +76,11 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
   entries.add("Mesh regions", mesh.regions,
               "The groups of cells of the mesh file that form the body. An empty list means all "
               "cells.");
+  entries.add(
+    "Boundary sets", mesh.boundary_sets,
+    "The sets of the mesh file that are boundaries of the body: sets of faces, and node "
+    "sets of Abaqus, which stand for the faces whose nodes are all in the set. Faces in "
+    "the sets a and b are the boundary 'a and b'. An empty list means all sets of faces.");
   entries.add("Boundary names", mesh.boundary_numbers,
               allowed("a list 'number: name, ...' of different numbers"),
               "The names of groups of faces that have only numbers in the file, such as physical "

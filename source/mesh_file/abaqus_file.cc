@@ -1,291 +1,392 @@
+#include <snug/mesh_file/deck_sets.h>
+#include <snug/mesh_file/deck_text.h>
 #include <snug/mesh_file/element_split.h>
 #include <snug/mesh_file/mesh_formats.h>
-#include <snug/mesh_file/mesh_text.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cctype>
-#include <set>
 
 namespace snug::mesh_file {
 namespace {
-std::string upper_case(std::string text)
-{
-  for (char &c : text)
-    c = std::toupper(static_cast<unsigned char>(c));
-  return text;
-}
+using Words = std::vector<std::string>;
+using Point = dealii::Point<3>;
 
-/// Return the element type @p name, which is in upper case. A name consists of a family, a number
-/// of nodes and letters for variants of the formulation (R, H, I, M, T), which are ignored. The
-/// shape depends on the family: C3D6 is a prism, CPS6 a triangle.
-ElementType abaqus_type(const std::string &name, unsigned long line)
-{
-  using S                                      = ElementShape;
-  static const std::map<unsigned int, S> solid = {{4, S::tetrahedron},  {5, S::pyramid},
-                                                  {6, S::prism},        {8, S::hexahedron},
-                                                  {10, S::tetrahedron}, {15, S::prism},
-                                                  {20, S::hexahedron},  {27, S::hexahedron}};
-  static const std::map<unsigned int, S> flat  = {{3, S::triangle},
-                                                  {4, S::quadrilateral},
-                                                  {6, S::triangle},
-                                                  {8, S::quadrilateral},
-                                                  {9, S::quadrilateral}};
-  static const std::map<unsigned int, S> thin  = {{2, S::line}, {3, S::line}};
-  using Families = std::vector<std::pair<std::string, const std::map<unsigned int, S> *>>;
-  // A family that is a prefix of others follows them, because otherwise CPE would match CPEG4, and
-  // S would match STRI3.
-  static const Families families = {{"DC3D", &solid}, {"C3D", &solid}, {"CPS", &flat},
-                                    {"CPEG", &flat},  {"CPE", &flat},  {"CAX", &flat},
-                                    {"SFM3D", &flat}, {"STRI", &flat}, {"SAX", &thin},
-                                    {"S", &flat},     {"M3D", &flat},  {"R3D", &flat},
-                                    {"DC2D", &flat},  {"T2D", &thin},  {"T3D", &thin},
-                                    {"R2D", &thin},   {"DC1D", &thin}};
-  // A family with another number of nodes is skipped, because S also begins types that are no
-  // shells (SPRINGA has no number, and atoi returns 0).
-  for (const auto &family : families)
-    if (name.rfind(family.first, 0) == 0)
-      {
-        // The names SAX1 and SAX2 contain the order, all others the number of nodes.
-        const unsigned int n =
-          std::atoi(name.c_str() + family.first.size()) + (family.first == "SAX" ? 1 : 0);
-        const auto found = family.second->find(n);
-        if (found != family.second->end())
-          return {found->second, n};
-      }
-  throw error_at_line(line, "element type '" + name + "' is not supported");
-}
-
-/// This class reads an .inp file keyword by keyword.
-///
-/// A keyword line begins with one * and has options "KEY=VALUE" behind commas. Data lines follow up
-/// to the next keyword; ** begins a comment. Keywords and names of sets are equal in upper and
-/// lower case. Nodes and elements have arbitrary positive numbers.
+/// This class reads a deck. Keywords and names of sets are equal in upper and lower case. Sets are
+/// stored under their names in upper case, those of an instance behind "INSTANCE.".
 class AbaqusReader
 {
 public:
-  explicit AbaqusReader(const std::string &text) : in(text) {}
+  explicit AbaqusReader(const std::string &text) : deck(text) {}
 
-  MeshFile read()
+  DeckMesh read()
   {
-    while (!in.at_end())
-      {
-        at                     = in.line();
-        const std::string line = in.rest_of_line();
-        if (line.empty() || line.rfind("**", 0) == 0)
-          continue;
-        if (line[0] == '*')
-          begin_keyword(line);
-        else
-          read_data(comma_list(line), line);
-      }
-    if (!pending.empty())
-      throw error_at_line(at, "the file ends within element " + pending[0]);
-    return mesh;
+    collect_names();
+    const auto &keywords = deck.keywords();
+    sets.scopes[""];
+    for (std::size_t k = 0; k < keywords.size(); ++k)
+      if (keywords[k].name == "INSTANCE")
+        k = read_instance(k);
+      else if (keywords[k].name == "PART" && has_instances)
+        k = end_of(k, "ENDPART");
+      else if (keywords[k].name == "PART" && ++n_parts > 1)
+        throw error_at_line(keywords[k].line,
+                            "the file has more than one part, but no *INSTANCE that places them");
+      else
+        read_keyword(keywords[k], "");
+    add_node_sets();
+    name_connected_cells(mesh);
+    return {std::move(mesh), std::move(sets)};
   }
 
 private:
-  MeshText                              in;
-  unsigned long                         at = 0; ///< current line
-  std::string                           keyword;
-  std::map<std::string, std::string>    options; ///< options of the keyword
-  ElementType                           type{ElementShape::line, 0};
-  std::vector<std::string>              pending; ///< an incomplete element of several lines
-  unsigned int                          n_parts = 0;
-  MeshFile                              mesh;
-  PointNumbers                          numbers;
-  std::map<unsigned long, unsigned int> element_index;
-  std::map<std::string, std::set<unsigned long>> sets;
-  std::map<std::string, std::string>             groups; ///< upper case -> name as it occurs first
+  DeckText                           deck;
+  unsigned long                      at            = 0; ///< current line
+  bool                               has_instances = false;
+  unsigned int                       n_parts       = 0;
+  MeshFile                           mesh;
+  DeckSets                           sets;
+  std::map<std::string, std::size_t> parts; ///< name -> index of the keyword *PART
+  /// line and words of a keyword -> name of the optional boundary
+  std::map<std::pair<unsigned long, std::string>, std::string> boundary_of_words;
 
-  void begin_keyword(const std::string &line)
+  /// Return the index of the keyword @p end that closes keyword @p k.
+  std::size_t end_of(const std::size_t k, const std::string &end) const
   {
-    if (!pending.empty())
-      throw error_at_line(at, "element " + pending[0] + " is incomplete");
-    options.clear();
-    for (const auto &part : comma_list(line))
+    const auto &keywords = deck.keywords();
+    for (std::size_t e = k + 1; e < keywords.size(); ++e)
+      if (keywords[e].name == end)
+        return e;
+    throw error_at_line(keywords[k].line, keywords[k].title + " has no *END");
+  }
+
+  /// Collect the parts and the names of the sets outside of parts and instances.
+  void collect_names()
+  {
+    const auto &keywords = deck.keywords();
+    for (std::size_t k = 0; k < keywords.size(); ++k)
+      has_instances = has_instances || keywords[k].name == "INSTANCE";
+    for (std::size_t k = 0; has_instances && k < keywords.size(); ++k)
       {
-        const auto equals = part.find('=');
-        const auto key    = upper_case(dealii::Utilities::trim(part.substr(0, equals)));
-        options[key] =
-          equals == std::string::npos ? "" : dealii::Utilities::trim(part.substr(equals + 1));
+        const auto &keyword = keywords[k];
+        if (keyword.name == "PART")
+          parts[upper_case(keyword.option("NAME"))] = k;
+        if (keyword.name == "PART" || keyword.name == "INSTANCE")
+          k = end_of(k, "END" + keyword.name);
+        else
+          for (const auto *option : {"ELSET", "NSET", "NAME"})
+            sets.assembly_names.insert(upper_case(keyword.option(option)));
       }
-    keyword = upper_case(comma_list(line)[0]);
-    // Several parts are refused, because every part numbers its nodes and elements from 1, and the
-    // instances that place the parts are not read.
-    if (keyword == "*PART" && ++n_parts > 1)
-      throw error_at_line(at, "the file has more than one part");
-    refuse_generation();
-    if (keyword == "*ELEMENT")
-      type = abaqus_type(upper_case(options["TYPE"]), at);
+  }
+
+  /// Read the instance that keyword @p k begins, and return the index of its last keyword.
+  std::size_t read_instance(const std::size_t k)
+  {
+    const auto       &keywords = deck.keywords();
+    const auto       &keyword  = keywords[k];
+    const std::string name = keyword.option("NAME"), prefix = upper_case(name) + ".";
+    const auto        part = parts.find(upper_case(keyword.option("PART")));
+    if (part == parts.end())
+      throw error_at_line(keyword.line, "instance '" + name + "' has the part '" +
+                                          keyword.option("PART") + "', which does not exist");
+    if (name.empty() || sets.scopes.count(prefix) > 0)
+      throw error_at_line(keyword.line, "instance '" + name + "' has no name or occurs twice");
+    sets.scopes[prefix].instance = name;
+    sets.scopes[prefix].part     = part->first;
+    sets.scopes[prefix].place    = instance_place(deck, keyword);
+    for (std::size_t p = part->second + 1; p < end_of(part->second, "ENDPART"); ++p)
+      read_keyword(keywords[p], prefix);
+    const std::size_t end = end_of(k, "ENDINSTANCE");
+    for (std::size_t own = k + 1; own < end; ++own)
+      read_keyword(keywords[own], prefix);
+    return end;
   }
 
   /// Refuse keywords that place or generate nodes and elements, because they are not supported and
   /// would change the mesh.
-  void refuse_generation() const
+  static void refuse_generation(const Keyword &keyword)
   {
-    static const std::set<std::string> others = {"*NGEN",  "*NFILL",  "*NCOPY",   "*NMAP",
-                                                 "*ELGEN", "*ELCOPY", "*INCLUDE", "*SYSTEM"};
-    const bool                         data   = keyword == "*NODE" || keyword == "*ELEMENT";
-    const auto                         found  = options.find("SYSTEM");
-    if (keyword == "*NODE" && found != options.end() && upper_case(found->second) != "R")
-      refuse("*NODE with SYSTEM = " + found->second);
-    if (others.count(keyword) > 0 || (data && options.count("INPUT") > 0))
-      refuse(keyword + (data ? " with INPUT" : ""));
+    static const std::set<std::string> others = {"NGEN",  "NFILL",  "NCOPY",   "NMAP",
+                                                 "ELGEN", "ELCOPY", "INCLUDE", "SYSTEM"};
+    const bool                         data   = keyword.name == "NODE" || keyword.name == "ELEMENT";
+    const auto                         system = upper_case(keyword.option("SYSTEM"));
+    std::string                        what;
+    if (keyword.name == "NODE" && !system.empty() && system != "R")
+      what = "*NODE with SYSTEM = " + system;
+    else if (others.count(keyword.name) > 0 || (data && keyword.has("INPUT")))
+      what = keyword.title + (data ? " with INPUT" : "");
+    if (!what.empty())
+      throw error_at_line(keyword.line, what + " is not supported; write all nodes and elements to "
+                                               "one file, in Cartesian coordinates");
   }
 
-  [[noreturn]] void refuse(const std::string &what) const
+  void read_keyword(const Keyword &keyword, const std::string &prefix)
   {
-    throw error_at_line(at, what + " is not supported; write all nodes and elements to one file, "
-                                   "in Cartesian coordinates");
-  }
-
-  /// Read a data line. Data of other keywords (materials, steps, node sets) are skipped.
-  void read_data(const std::vector<std::string> &words, const std::string &line)
-  {
-    if (keyword == "*NODE")
-      read_node(words);
-    else if (keyword == "*ELEMENT")
-      read_element(words);
-    else if (keyword == "*ELSET")
-      read_set(words);
-    else if (keyword == "*SURFACE")
-      read_surface(words);
-    else if (keyword == "*INSTANCE")
-      refuse("*INSTANCE with a translation or rotation");
-    else if (keyword.empty())
-      throw error_at_line(at, "a keyword is expected, not '" + line + "'");
+    refuse_generation(keyword);
+    at = keyword.line;
+    if (keyword.name == "ELEMENT")
+      return read_elements(keyword, prefix);
+    if (keyword.name == "SOLIDSECTION")
+      return read_section(keyword, prefix);
+    using Read = void (AbaqusReader::*)(const Words &, const Keyword &, const std::string &);
+    static const std::map<std::string, Read> reads = {{"NODE", &AbaqusReader::read_node},
+                                                      {"ELSET", &AbaqusReader::read_elset},
+                                                      {"NSET", &AbaqusReader::read_nset},
+                                                      {"SURFACE", &AbaqusReader::read_surface},
+                                                      {"BOUNDARY", &AbaqusReader::read_boundary},
+                                                      {"DLOAD", &AbaqusReader::read_pressure}};
+    const auto                               found = reads.find(keyword.name);
+    if (found == reads.end())
+      return;
+    deck.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      at = line;
+      (this->*found->second)(words, keyword, prefix);
+    });
   }
 
   /// Read a node: its number and 2 or 3 coordinates. Direction cosines of a shell's normal may
   /// follow.
-  void read_node(const std::vector<std::string> &words)
+  void read_node(const Words &words, const Keyword &keyword, const std::string &prefix)
   {
     if (words.size() < 3)
       throw error_at_line(at, "a node and its coordinates are expected");
-    numbers.add(to_whole(words[0], at), at);
-    dealii::Point<3> point;
+    Scope             &scope = sets.scopes.at(prefix);
+    const unsigned int index = mesh.points.size();
+    scope.nodes.add(to_whole(words[0], at), index, at);
+    Point point;
     for (unsigned int d = 0; d < 3 && d + 1 < words.size(); ++d)
       point[d] = to_number(words[d + 1], at);
-    mesh.points.push_back(point);
+    mesh.points.push_back(scope.place(point));
+    if (keyword.has("NSET"))
+      sets.of_nodes[sets.key(keyword.option("NSET"), prefix)].insert(index);
   }
 
-  /// Read an element: its number and nodes. Elements of many nodes, such as C3D20, continue on
+  /// Read elements: their numbers and nodes. Elements of many nodes, such as C3D20, continue on
   /// further lines.
-  void read_element(const std::vector<std::string> &words)
+  void read_elements(const Keyword &keyword, const std::string &prefix)
   {
-    pending.insert(pending.end(), words.begin(), words.end());
-    if (pending.size() < 1 + type.n_nodes)
-      return;
-    const auto        number = to_whole(pending[0], at);
-    const std::string name   = "element " + pending[0];
-    if (!element_index.emplace(number, mesh.elements.size()).second)
+    const ElementType type = abaqus_type(upper_case(keyword.option("TYPE")), keyword.line);
+    Words             pending;
+    deck.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      at = line;
+      pending.insert(pending.end(), words.begin(), words.end());
+      if (pending.size() < 1 + type.n_nodes)
+        return;
+      read_element(pending, type, keyword, prefix);
+      pending.clear();
+    });
+    if (!pending.empty())
+      throw error_at_line(at, "element " + pending[0] + " is incomplete");
+  }
+
+  void read_element(const Words       &words,
+                    const ElementType &type,
+                    const Keyword     &keyword,
+                    const std::string &prefix)
+  {
+    Scope             &scope  = sets.scopes.at(prefix);
+    const auto         number = to_whole(words[0], at);
+    const std::string  name   = "element " + words[0];
+    const unsigned int index  = mesh.elements.size();
+    if (!scope.elements.emplace(number, index).second)
       throw error_at_line(at, name + " occurs twice");
     MeshFile::Element         element{type.shape, {}, {}, number, at};
     std::vector<unsigned int> nodes;
     for (unsigned int i = 1; i <= type.n_nodes; ++i)
-      nodes.push_back(numbers.index(to_whole(pending[i], at), name, at));
+      nodes.push_back(scope.nodes.index(to_whole(words[i], at), name, at));
     // Abaqus lists the corners before the nodes on edges, but the middle node of a line second.
     if (type.shape == ElementShape::line)
       std::swap(nodes[1], nodes.back());
     add_nodes(mesh, element, nodes, abaqus_middles(type.shape));
+    if (!prefix.empty())
+      element.groups.push_back(scope.instance);
     mesh.elements.push_back(element);
-    pending.clear();
-    if (!options["ELSET"].empty())
-      add_to_set(options["ELSET"], number);
+    if (keyword.has("ELSET"))
+      add_to_set(keyword.option("ELSET"), prefix, index);
   }
 
-  /// Add an element to a set. Names of sets are equal in upper and lower case, and the group has
-  /// the name as it occurs first. Internal sets of Abaqus/CAE, such as _Surf-1_S2 for faces of a
+  /// Add an element to a set. Internal sets of Abaqus/CAE, such as _Surf-1_S2 for faces of a
   /// surface, are no groups, because they would become regions.
-  void add_to_set(const std::string &name, unsigned long number)
+  void add_to_set(const std::string &name, const std::string &prefix, const unsigned int element)
   {
-    const auto found = element_index.find(number);
-    if (found == element_index.end())
-      throw error_at_line(at, "set '" + name + "' has the element " + std::to_string(number) +
-                                ", which does not exist");
-    const std::string key = upper_case(name);
+    const std::string key = sets.key(name, prefix);
     // An element is added once, because a set that is added to itself would double with every line.
-    if (sets[key].insert(number).second && name[0] != '_')
-      mesh.elements[found->second].groups.push_back(groups.emplace(key, name).first->second);
+    if (sets.of_elements[key].insert(element).second && name[0] != '_')
+      {
+        // Sets with the same name in several instances are one group.
+        auto &groups = mesh.elements[element].groups;
+        if (std::find(groups.begin(), groups.end(), sets.spelling.at(key)) == groups.end())
+          groups.push_back(sets.spelling.at(key));
+      }
   }
 
-  /// Read a set: first, last and increment (GENERATE), or a list of elements and other sets.
-  void read_set(const std::vector<std::string> &words)
+  /// Call @p add with each member of a line of a set: first, last and increment (GENERATE), or a
+  /// list of numbers and other sets. INSTANCE names the numbering of the members.
+  template <typename Find, typename Add>
+  void read_members(const Words       &words,
+                    const Keyword     &keyword,
+                    const std::string &prefix,
+                    const Find        &find,
+                    const Add         &add) const
   {
-    const std::string name = options["ELSET"];
-    if (options.count("GENERATE") > 0)
+    std::string scope = prefix;
+    if (keyword.has("INSTANCE"))
+      scope = upper_case(keyword.option("INSTANCE")) + ".";
+    if (sets.scopes.count(scope) == 0)
+      throw error_at_line(keyword.line,
+                          "there is no instance '" + keyword.option("INSTANCE") + "'");
+    if (!keyword.has("GENERATE"))
       {
-        if (words.size() < 2)
-          throw error_at_line(at, "first and last element are expected");
-        const auto last = to_whole(words[1], at);
-        const auto step = words.size() > 2 ? std::max(1ul, to_whole(words[2], at)) : 1ul;
-        for (auto e = to_whole(words[0], at); e <= last; e += step)
-          add_to_set(name, e);
+        for (const auto &word : words)
+          for (const unsigned int index : find(word, scope))
+            add(index);
         return;
       }
-    for (const auto &word : words)
-      for (const auto number : elements_of(word))
-        add_to_set(name, number);
+    if (words.size() < 2)
+      throw error_at_line(at, "first and last member are expected");
+    const auto last = to_whole(words[1], at);
+    const auto step = words.size() > 2 ? std::max(1ul, to_whole(words[2], at)) : 1ul;
+    for (auto n = to_whole(words[0], at); n <= last; n += step)
+      for (const unsigned int index : find(std::to_string(n), scope))
+        add(index);
   }
 
-  /// Return the elements of the set @p word, or the element with the number @p word.
-  std::vector<unsigned long> elements_of(const std::string &word) const
+  void read_elset(const Words &words, const Keyword &keyword, const std::string &prefix)
   {
-    const auto found = sets.find(upper_case(word));
-    if (found != sets.end())
-      return {found->second.begin(), found->second.end()};
-    return {to_whole(word, at)};
+    const std::string name = keyword.option("ELSET");
+    read_members(
+      words, keyword, prefix,
+      [&](const std::string &word, const std::string &scope) {
+        return sets.elements(word, scope, "set '" + name + "'", at);
+      },
+      [&](const unsigned int element) { add_to_set(name, prefix, element); });
+  }
+
+  void read_nset(const Words &words, const Keyword &keyword, const std::string &prefix)
+  {
+    const std::string name = keyword.option("NSET");
+    const std::string key  = sets.key(name, prefix);
+    read_members(
+      words, keyword, prefix,
+      [&](const std::string &word, const std::string &scope) {
+        return sets.nodes(word, scope, "set '" + name + "'", at);
+      },
+      [&](const unsigned int node) { sets.of_nodes[key].insert(node); });
   }
 
   /// Read a line "element or set, face" of a surface, such as "_Surf-1_S2, S2" with an internal set
-  /// of Abaqus/CAE, which has one for each face number of a surface.
-  void read_surface(const std::vector<std::string> &words)
+  /// of Abaqus/CAE, which has one for each face number of a surface. Without a face all outer faces
+  /// of the elements belong to the surface. A surface of nodes is a node set.
+  void read_surface(const Words &words, const Keyword &keyword, const std::string &prefix)
   {
-    // Surfaces of nodes have no faces. ELEMENT is the default of TYPE.
-    if (options.count("TYPE") > 0 && upper_case(options["TYPE"]) != "ELEMENT")
+    const std::string name = keyword.option("NAME"), type = upper_case(keyword.option("TYPE"));
+    const std::string key = sets.key(name, prefix);
+    if (type == "NODE")
+      for (const unsigned int node : sets.nodes(words[0], prefix, "surface '" + name + "'", at))
+        sets.of_nodes[key].insert(node);
+    if (!type.empty() && type != "ELEMENT")
       return;
-    const std::string name = options["NAME"];
-    for (const auto number : elements_of(words[0]))
+    sets.surfaces.insert(sets.spelling.at(key));
+    for (const unsigned int element : sets.elements(words[0], prefix, "surface '" + name + "'", at))
       {
-        const auto found = element_index.find(number);
-        if (found == element_index.end())
-          throw error_at_line(at, "surface '" + name + "' has the element " +
-                                    std::to_string(number) + ", which does not exist");
-        // The cell is copied, because add_face() may reallocate the list of elements.
-        const MeshFile::Element cell  = mesh.elements[found->second];
-        const std::string       face  = words.size() > 1 ? upper_case(words[1]) : "";
-        const auto             &faces = faces_of(cell.shape);
-        const std::size_t which = face.size() == 2 && face[0] == 'S' ? face[1] - '1' : faces.size();
-        if (which >= faces.size())
-          throw error_at_line(at,
-                              "element " + std::to_string(number) + " has no face '" + face + "'");
-        add_face(cell, faces[which], name);
+        const auto &cell = mesh.elements[element];
+        if (words.size() > 1)
+          mesh.elements.push_back(
+            face_of(cell, face_number(cell, words[1], 'S'), sets.spelling.at(key)));
+        else
+          for (unsigned int f = 0; f < faces_of(cell.shape).size(); ++f)
+            mesh.elements.push_back(face_of(mesh.elements[element], f, sets.spelling.at(key)));
       }
   }
 
-  /// Add a face of a surface as an element one dimension lower, with the number of the cell.
-  void add_face(const MeshFile::Element         &cell,
-                const std::vector<unsigned int> &corners,
-                const std::string               &name)
+  /// Return the optional boundary of the lines of a keyword that have the same @p words. It is
+  /// named by the first of these lines, "Dload-17".
+  MeshFile::OptionalBoundary &boundary_of(const Keyword &keyword, const std::string &words)
   {
-    MeshFile::Element face = cell;
-    face.shape             = corners.size() == 2   ? ElementShape::line
-                             : corners.size() == 3 ? ElementShape::triangle
-                                                   : ElementShape::quadrilateral;
-    face.line              = at;
-    face.groups            = {name};
+    const auto name   = boundary_of_words.emplace(std::make_pair(keyword.line, words),
+                                                  (keyword.name == "DLOAD" ? "Dload-" : "Boundary-") +
+                                                    std::to_string(at));
+    sets.of_lines[at] = name.first->second;
+    return mesh.optional_boundaries[name.first->second];
+  }
+
+  /// Read a line "element or set, P3, pressure" of *DLOAD.
+  void read_pressure(const Words &words, const Keyword &keyword, const std::string &prefix)
+  {
+    if (words.size() < 3 || words[1].size() != 2 || upper_case(words[1])[0] != 'P')
+      return;
+    auto &boundary = boundary_of(keyword, words[2]);
+    for (const unsigned int element : sets.elements(words[0], prefix, keyword.title, at))
+      {
+        const auto &cell = mesh.elements[element];
+        boundary.faces.push_back(face_of(cell, face_number(cell, words[1], 'P'), ""));
+      }
+  }
+
+  /// Read a line of *BOUNDARY that begins with a number of a node, and not with a set.
+  void read_boundary(const Words &words, const Keyword &keyword, const std::string &prefix)
+  {
+    if (!sets.find(sets.of_nodes, words[0], prefix).empty())
+      return;
+    std::string rest;
+    for (std::size_t i = 1; i < words.size(); ++i)
+      rest += words[i] + ',';
+    for (const unsigned int node : sets.nodes(words[0], prefix, keyword.title, at))
+      boundary_of(keyword, rest).nodes.insert(node);
+  }
+
+  /// Read a section. Elements of an internal set of Abaqus/CAE are in the group of their material.
+  void read_section(const Keyword &keyword, const std::string &prefix)
+  {
+    const std::string name = keyword.option("ELSET");
+    if (name.empty() || name[0] != '_')
+      return;
+    for (const unsigned int element : sets.elements(name, prefix, keyword.title, keyword.line))
+      add_to_set(keyword.option("MATERIAL"), prefix, element);
+  }
+
+  /// Return the index of the face @p word, such as S2, of a cell.
+  unsigned int
+  face_number(const MeshFile::Element &cell, const std::string &word, char letter) const
+  {
+    const auto       &faces  = faces_of(cell.shape);
+    const auto        face   = upper_case(word);
+    const std::size_t number = face.size() == 2 && face[0] == letter ? face[1] - '1' : faces.size();
+    if (number >= faces.size())
+      throw error_at_line(at,
+                          "element " + std::to_string(cell.number) + " has no face '" + word + "'");
+    return number;
+  }
+
+  /// Return a face as an element one dimension lower, with the number of the cell.
+  MeshFile::Element
+  face_of(const MeshFile::Element &cell, const unsigned int number, const std::string &name) const
+  {
+    const auto       &corners = faces_of(cell.shape)[number];
+    MeshFile::Element face    = cell;
+    face.shape                = face_shape(corners);
+    face.line                 = at;
+    face.groups               = {name};
     face.corners.clear();
     for (const unsigned int corner : corners)
       face.corners.push_back(cell.corners[corner]);
-    mesh.elements.push_back(face);
+    return face;
+  }
+
+  void add_node_sets()
+  {
+    for (const auto &[key, nodes] : sets.of_nodes)
+      mesh.optional_boundaries[sets.boundary_of_nodes(key)].nodes.insert(nodes.begin(),
+                                                                         nodes.end());
   }
 };
 } // namespace
 
-MeshFile read_abaqus(const std::string &text)
+DeckMesh read_deck(const std::string &text)
 {
   return AbaqusReader(text).read();
+}
+
+MeshFile read_abaqus(const std::string &text)
+{
+  return read_deck(text).mesh;
 }
 } // namespace snug::mesh_file

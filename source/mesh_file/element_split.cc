@@ -1,3 +1,4 @@
+#include <snug/geometry/cell_numbering.h>
 #include <snug/mesh_file/element_split.h>
 
 #include <algorithm>
@@ -126,6 +127,34 @@ std::vector<std::vector<unsigned int>> ElementSplit::parts(const MeshFile::Eleme
         }
       result.push_back(part);
     }
+  return result;
+}
+
+ElementShape face_shape(const std::vector<unsigned int> &corners)
+{
+  return corners.size() == 2   ? ElementShape::line
+         : corners.size() == 3 ? ElementShape::triangle
+                               : ElementShape::quadrilateral;
+}
+
+std::vector<std::vector<unsigned int>> outer_faces(const std::vector<MeshFile::Element> &cells)
+{
+  using Corners = std::vector<unsigned int>;
+  std::map<Corners, std::pair<unsigned int, Corners>> count;
+  for (const auto &cell : cells)
+    for (const auto &local : faces_of(cell.shape))
+      {
+        Corners face;
+        for (const unsigned int corner : local)
+          face.push_back(cell.corners[corner]);
+        auto &entry = count[geometry::sorted(face)];
+        ++entry.first;
+        entry.second = face;
+      }
+  std::vector<Corners> result;
+  for (const auto &entry : count)
+    if (entry.second.first == 1)
+      result.push_back(entry.second.second);
   return result;
 }
 } // namespace snug::mesh_file

@@ -183,7 +183,7 @@ private:
 
   void read_point(unsigned long number)
   {
-    numbers.add(number, in.line());
+    numbers.add(number, mesh.points.size(), in.line());
     dealii::Point<3> point;
     for (unsigned int d = 0; d < 3; ++d)
       point[d] = value<double>("a coordinate of node " + std::to_string(number));

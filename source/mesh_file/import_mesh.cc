@@ -1,6 +1,7 @@
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/mesh_file/curved_blocks.h>
+#include <snug/mesh_file/face_names.h>
 #include <snug/mesh_file/file_cells.h>
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/mesh_file/mesh_text.h>
@@ -117,48 +118,13 @@ private:
                               "other elements");
   }
 
-  /// Return the name of the boundary that contains an element.
-  std::string name_of(const Element &element) const
-  {
-    // The entry gives names to groups without a name, and may rename other groups.
-    const std::string &group = element.groups.back();
-    const auto         given = parameters.boundary_numbers.find(group);
-    if (given != parameters.boundary_numbers.end())
-      return given->second;
-    if (file.unnamed.count(group) > 0)
-      throw element_error(element, "belongs to group " + group +
-                                     ", which has no name in the file; set 'Boundary names = " +
-                                     group + ": NAME'");
-    // These characters separate items in lists of a parameter file.
-    if (group.find_first_of(",:;=#\\") != std::string::npos)
-      throw element_error(element, "belongs to the group '" + group +
-                                     "'; names must not contain , : ; = # or \\");
-    return group;
-  }
-
   void name_boundaries()
   {
-    for (const auto &element : file.elements)
-      if (dimension(element.shape) == dim - 1 && !element.groups.empty())
-        for (const auto &part : parts(element))
-          {
-            const Corners key   = sorted(part);
-            const auto    found = n_cells_of_face.find(key);
-            if (found == n_cells_of_face.end())
-              {
-                if (parameters.regions.empty())
-                  throw element_error(element, "is not a face of a cell");
-                continue; // a face of another region
-              }
-            if (found->second == 2)
-              continue; // a face between regions
-            const unsigned int boundary = index_in(mesh.boundary_names, name_of(element));
-            const auto         entry    = mesh.boundaries.emplace(key, boundary);
-            if (!entry.second && entry.first->second != boundary)
-              throw element_error(element, "belongs to the groups '" +
-                                             mesh.boundary_names[entry.first->second] + "' and '" +
-                                             mesh.boundary_names[boundary] + "'");
-          }
+    const FaceNames names(file, parameters, cells, n_cells_of_face,
+                          [this](const Element &element) { return parts(element); });
+    notes.insert(notes.end(), names.notes.begin(), names.notes.end());
+    for (const auto &[face, name] : names.named())
+      mesh.boundaries[face] = index_in(mesh.boundary_names, name);
     for (const auto &entry : n_cells_of_face)
       if (entry.second == 1 && mesh.boundaries.count(entry.first) == 0)
         mesh.boundaries[entry.first] = index_in(mesh.boundary_names, "free");
@@ -175,27 +141,10 @@ private:
   /// Return the faces of the cells at the boundary, before the cells are split.
   std::vector<Facet> facets()
   {
-    std::map<Corners, std::pair<unsigned int, Corners>> count;
-    for (const auto &cell : cells)
-      for (const auto &local : faces_of(cell.shape))
-        {
-          Corners face;
-          for (const unsigned int corner : local)
-            face.push_back(cell.corners[corner]);
-          auto &entry = count[sorted(face)];
-          ++entry.first;
-          entry.second = face;
-        }
     std::vector<Facet> result;
-    for (const auto &entry : count)
-      if (entry.second.first == 1)
-        {
-          const Corners &face  = entry.second.second;
-          const auto     shape = face.size() == 2   ? ElementShape::line
-                                 : face.size() == 3 ? ElementShape::triangle
-                                                    : ElementShape::quadrilateral;
-          result.push_back({face, mesh.boundaries.at(sorted(parts({shape, face, {}, 0, 0})[0]))});
-        }
+    for (const auto &face : outer_faces(cells))
+      result.push_back(
+        {face, mesh.boundaries.at(sorted(parts({face_shape(face), face, {}, 0, 0})[0]))});
     return result;
   }
 

@@ -48,10 +48,11 @@ std::string count_shapes(const std::vector<MeshFile::Element> &elements)
   return result;
 }
 
-void PointNumbers::add(const unsigned long number, const unsigned long line)
+void PointNumbers::add(const unsigned long number,
+                       const unsigned int  index,
+                       const unsigned long line)
 {
-  // Indices follow the order of the file, because MeshFile::points has this order.
-  if (!indices.emplace(number, indices.size()).second)
+  if (!indices.emplace(number, index).second)
     throw error_at_line(line, "node " + std::to_string(number) + " occurs twice");
 }
 

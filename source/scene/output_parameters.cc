@@ -26,6 +26,14 @@ void OutputParameters::declare(Entries &entries)
     "The number of ranks whose cells share a file of each body and boundary. The first of "
     "these ranks writes these files and needs memory for all of their content.");
   entries.add(
+    "Meshes", meshes,
+    with_meanings(
+      {}, {{"msh", "bodies.msh: mesh of Gmsh 2.2, with boundaries and regions as physical groups"},
+           {"inp", "bodies.inp: deck of CalculiX and Abaqus with the mesh, sets, materials, "
+                   "contact pairs, supports and loads of the first load case"}}),
+    "The formats in which the bodies of the last design are written, with the positions of the "
+    "nodes without a load. An empty list means none.");
+  entries.add(
     "Export QP", export_qp,
     "Whether to write the quadratic program of the first state and its solution into qp/, "
     "for other solvers, as binary files of PETSc and in Matrix Market format. See "
@@ -38,5 +46,8 @@ void OutputParameters::check(const SectionCheck &section) const
   for (const auto &field : fields)
     section.require(all.has(field), "Fields", to_text(fields),
                     "must name fields among " + to_text(all.fields));
+  for (const auto &format : meshes)
+    section.require(format == "msh" || format == "inp", "Meshes", to_text(meshes),
+                    "must name formats among msh, inp");
 }
 } // namespace snug::scene

@@ -103,6 +103,8 @@ private:
   void                   count_rows();
   void                   export_first_qp(const States &states);
   std::vector<MeshError> estimate(const States &states);
+  /// Write the 'Meshes' of the scene at the positions of @p state. Collective.
+  void export_meshes(const state::ContactState<dim> &state);
 
   /// Writers of one load case.
   struct Pictures

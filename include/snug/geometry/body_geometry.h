@@ -86,6 +86,8 @@ struct BodyMeshParameters
   /// @{
   std::string              file;    ///< path
   std::vector<std::string> regions; ///< regions of the file in the body; empty: all
+  /// sets of faces or nodes that are boundaries; empty: all sets of faces
+  std::vector<std::string> boundary_sets;
   /// number of a group without a name -> name
   std::map<std::string, std::string> boundary_numbers;
   /// boundary -> "facets" | "smooth"

@@ -41,6 +41,11 @@ private:
   std::vector<dealii::Point<3>>                    &points;
   std::map<std::vector<unsigned int>, unsigned int> middles;
 };
+/// Return the shape of a face with these corners: a line, a triangle or a quadrilateral.
+ElementShape face_shape(const std::vector<unsigned int> &corners);
+
+/// Return the faces that belong to one of the @p cells only, in the order of faces_of().
+std::vector<std::vector<unsigned int>> outer_faces(const std::vector<MeshFile::Element> &cells);
 } // namespace snug::mesh_file
 
 #endif

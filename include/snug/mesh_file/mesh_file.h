@@ -4,6 +4,7 @@
 #include <deal.II/base/point.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,29 @@ struct MeshFile
   /// Middle nodes of quadratic elements: corners of an edge or a quadrilateral in ascending order
   /// -> the point in its middle
   std::map<std::vector<unsigned int>, unsigned int> middles;
+  /// Boundaries that exist only if the entry 'Boundary sets' names them: the faces whose nodes are
+  /// all among the nodes, and the faces
+  struct OptionalBoundary
+  {
+    std::set<unsigned int> nodes; ///< indices into points
+    std::vector<Element>   faces;
+  };
+  std::map<std::string, OptionalBoundary> optional_boundaries;
 };
+
+/// A body of a mesh file: cells that are connected by common nodes.
+struct ConnectedCells
+{
+  std::vector<unsigned int> elements; ///< indices into MeshFile::elements
+  std::string               group;    ///< first group that consists of these cells, or ""
+};
+
+/// Return the connected bodies of the elements of the highest dimension, in the order of the file.
+std::vector<ConnectedCells> connected_cells(const MeshFile &file);
+
+/// Add the cells of each of several connected bodies that has no group of its own to the group
+/// body-N, with N from 1 in the order of the file.
+void name_connected_cells(MeshFile &file);
 
 /// Return the numbers of elements of each shape but points, such as "4 lines, 2 triangles and 1
 /// quadrilateral"; empty if all elements are points.

@@ -12,10 +12,13 @@ namespace snug::mesh_file {
 MeshFile read_gmsh(const std::string &text);
 
 /**
- * Read Abaqus .inp. The groups are the element surfaces, and the element sets except the sets of
- * Abaqus/CAE, whose names begin with _. The file has one part, which no instance moves. Keywords
- * that generate or move nodes or elements are errors. Keywords other than NODE, ELEMENT, ELSET and
- * SURFACE are skipped. Source: Abaqus keywords reference.
+ * Read a deck of Abaqus or CalculiX (.inp): the parts at the places of their instances. The groups
+ * are the element surfaces, the instances, and the element sets except the sets of Abaqus/CAE,
+ * whose names begin with _. A set of a part is called INSTANCE.SET if the assembly has a set of the
+ * same name, otherwise SET. Cells that are connected, but in no common group of their own, are the
+ * group body-N. Node sets, the faces of *DLOAD as Dload-LINE and the nodes of *BOUNDARY as
+ * Boundary-LINE are optional boundaries. Keywords that generate or move nodes or elements are
+ * errors. Other keywords are skipped. Source: Abaqus keywords reference.
  */
 MeshFile read_abaqus(const std::string &text);
 /// @}
@@ -42,12 +45,18 @@ struct ElementType
   unsigned int n_nodes;
 };
 
+/// Return the element type @p name of Abaqus, which is in upper case. A name consists of a family,
+/// a number of nodes and letters for variants of the formulation (R, H, I, M, T), which are
+/// ignored. The shape depends on the family: C3D6 is a prism, CPS6 a triangle.
+/// @throws InputError if the type is not supported.
+ElementType abaqus_type(const std::string &name, unsigned long line);
+
 /// This class maps the numbers of nodes in a file to indices of points.
 class PointNumbers
 {
 public:
-  /// Add the next point of the file. @throws InputError if the number occurred before.
-  void add(unsigned long number, unsigned long line);
+  /// Map a number to the point @p index. @throws InputError if the number occurred before.
+  void add(unsigned long number, unsigned int index, unsigned long line);
 
   /// Return the index of the point with this number. The error message contains the name @p element
   /// of the element that needs the point. @throws InputError if there is no such point.

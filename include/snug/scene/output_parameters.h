@@ -23,6 +23,7 @@ struct OutputParameters
   unsigned int             compression    = 1;  ///< compression level of zlib
   unsigned int             ranks_per_file = 16; ///< number of ranks that share a file of the fields
   bool                     export_qp      = false;
+  std::vector<std::string> meshes; ///< formats of files of the bodies: msh, inp
 
   bool has(const std::string &field) const;
 

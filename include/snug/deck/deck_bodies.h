@@ -1,0 +1,57 @@
+#ifndef snug_deck_deck_bodies_h
+#define snug_deck_deck_bodies_h
+
+#include <snug/mesh_file/deck_sets.h>
+
+namespace snug::deck {
+/**
+ * This class divides the mesh of a deck into bodies of connected cells, and finds the faces of sets
+ * on each body. A set that is used becomes one of the 'Boundary sets' of its bodies, unless an
+ * earlier one has the same faces.
+ */
+class DeckBodies
+{
+public:
+  struct Body
+  {
+    std::string                         name;     ///< name in the parameter file
+    std::string                         group;    ///< "" for the only body
+    std::vector<unsigned int>           elements; ///< indices of the cells
+    std::vector<std::string>            sets;     ///< 'Boundary sets'
+    std::vector<std::set<unsigned int>> faces;    ///< outer faces of each set
+    std::map<std::string, std::string>  alias;    ///< set -> the set with the same faces
+    /// sorted corners of an outer face -> index of the face
+    std::map<std::vector<unsigned int>, unsigned int> outer;
+  };
+
+  explicit DeckBodies(const mesh_file::DeckMesh &deck);
+
+  const std::vector<Body> &all() const { return bodies; }
+  unsigned int             dimension() const { return dim; }
+
+  /// Use a set of faces or an optional boundary. Return whether a body has such a face.
+  bool use(const std::string &set);
+
+  /// Return the bodies that have faces of the set.
+  std::vector<unsigned int> bodies_of(const std::string &set) const;
+
+  /// Return the boundaries of a body that consist of faces of the set, such as "a" and "a and b".
+  /// All sets must have been used before.
+  std::vector<std::string> boundaries(unsigned int body, const std::string &set) const;
+
+  /// Return the number of nodes of the optional boundary @p set that lie on none of its faces.
+  unsigned int nodes_without_face(const std::string &set) const;
+
+private:
+  const mesh_file::MeshFile &mesh;
+  unsigned int               dim = 0;
+  std::vector<Body>          bodies;
+  std::set<std::string>      used;
+  /// set of faces -> sorted corners of its faces
+  std::map<std::string, std::vector<std::vector<unsigned int>>> faces_of_set;
+
+  std::set<unsigned int> faces_on(const Body &body, const std::string &set) const;
+};
+} // namespace snug::deck
+
+#endif

@@ -1,0 +1,90 @@
+#ifndef snug_mesh_file_deck_sets_h
+#define snug_mesh_file_deck_sets_h
+
+#include <snug/mesh_file/deck_text.h>
+#include <snug/mesh_file/mesh_formats.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <set>
+
+namespace snug::mesh_file {
+/// Place of an instance: a translation, then a rotation about the axis from @p a to @p b.
+struct InstancePlace
+{
+  dealii::Tensor<1, 3> shift;
+  dealii::Point<3>     a, b;
+  double               degrees = 0.;
+
+  dealii::Point<3> operator()(const dealii::Point<3> &x) const;
+};
+
+/// Return the place in the data lines of *INSTANCE: a translation, then two points of an axis and
+/// an angle in degrees. @throws InputError with the line.
+InstancePlace instance_place(const DeckText &deck, const Keyword &keyword);
+
+/// A numbering of nodes and elements: one of the file, and one of each instance.
+struct Scope
+{
+  PointNumbers                          nodes;
+  std::map<unsigned long, unsigned int> elements; ///< number -> index of the element
+  std::string                           instance; ///< name as in the file; "" of the file
+  std::string                           part;     ///< name in upper case; "" of the file
+  InstancePlace                         place;
+};
+
+/// The numberings and sets of a deck. Sets are stored under their names in upper case, those of an
+/// instance behind the prefix "INSTANCE.". The prefix of the file is "".
+struct DeckSets
+{
+  std::map<std::string, Scope>                  scopes; ///< by prefix
+  std::map<std::string, std::set<unsigned int>> of_elements, of_nodes;
+  std::set<std::string>              assembly_names; ///< of sets outside of parts and instances
+  std::map<std::string, std::string> spelling;       ///< key of a set -> name of the group
+  std::set<std::string>              surfaces;       ///< names of the groups of faces
+  /// line of *BOUNDARY or *DLOAD with nodes or faces -> name of the optional boundary
+  std::map<unsigned long, std::string> of_lines;
+
+  /// Return the key of a set. The set is spelled as it occurs first. A set of an instance is called
+  /// INSTANCE.SET if the assembly has a set of the same name.
+  std::string key(const std::string &name, const std::string &prefix);
+
+  /// Return the key of the set @p word of the scope or of the assembly in @p sets, or "".
+  std::string find(const std::map<std::string, std::set<unsigned int>> &sets,
+                   const std::string                                   &word,
+                   const std::string                                   &prefix) const;
+
+  /// Return the name of the optional boundary of a node set: that of the set, or "SET nodes" if a
+  /// surface has the same name.
+  std::string boundary_of_nodes(const std::string &key) const;
+
+  /// Return the indices of the elements of the set @p word of the scope or of the assembly, or of
+  /// the element with the number @p word, which may be "INSTANCE.7". The error of a missing element
+  /// names its @p user. @throws InputError at @p line.
+  std::vector<unsigned int> elements(const std::string &word,
+                                     const std::string &prefix,
+                                     const std::string &user,
+                                     unsigned long      line) const;
+
+  /// Return the indices of nodes, like elements().
+  std::vector<unsigned int> nodes(const std::string &word,
+                                  const std::string &prefix,
+                                  const std::string &user,
+                                  unsigned long      line) const;
+
+private:
+  std::pair<const Scope *, std::string> split(const std::string &word,
+                                              const std::string &prefix) const;
+};
+/// A deck: its mesh, and the sets to which its other keywords refer.
+struct DeckMesh
+{
+  MeshFile mesh;
+  DeckSets sets;
+};
+
+/// Read the mesh of a deck, see read_abaqus(). @throws InputError "line 17: message".
+DeckMesh read_deck(const std::string &text);
+} // namespace snug::mesh_file
+
+#endif

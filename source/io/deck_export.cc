@@ -1,0 +1,339 @@
+#include <snug/io/deck_mesh_text.h>
+#include <snug/io/mesh_export.h>
+#include <snug/io/text_file.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace snug::io {
+namespace {
+/// Ratio of the contact stiffness [force/length^3] to Young's modulus over the face size. The
+/// penetration is then p h / (100 E), where the pressure p compresses a cell of size h by about
+/// p h / E.
+const double contact_penalty = 100.;
+
+/// Return a number of a formula without variables.
+std::optional<double> constant(const std::string &formula)
+{
+  try
+    {
+      double value = 0.;
+      from_text(formula, value);
+      return value;
+    }
+  catch (const std::invalid_argument &)
+    {
+      return {};
+    }
+}
+
+/// This class writes a deck.
+template <int dim>
+class DeckWriter
+{
+public:
+  using Frames = typename supports::DirichletConstraints<dim>::Frames;
+
+  DeckWriter(const state::StateSolver<dim> &solver,
+             const scene::Scene            &scene,
+             const WholeMesh<dim>          &whole,
+             const Frames                  &frames)
+    : solver(solver)
+    , mesh(solver.mesh())
+    , scene(scene)
+    , whole(whole)
+    , frames(frames)
+    , mesh_text(solver.mesh(), scene, whole)
+  {
+    const auto &model = solver.model().load_cases.front();
+    if (scene.load_cases.size() > 1)
+      left_out.push_back("load cases after '" + model.name + "'");
+    if (!(model.position == contact::Position<dim>()))
+      left_out.push_back("'Position' of load case '" + model.name + "'");
+  }
+
+  DeckExport result()
+  {
+    out += mesh_text.nodes() + mesh_text.elements() + mesh_text.sets();
+    if (mesh.degree() == 2 && !whole.hanging.empty())
+      left_out.push_back("masters of hanging nodes in the middles of faces");
+    write_materials();
+    write_contacts();
+    write_supports();
+    out += "*STEP\n*STATIC\n1., 1.\n";
+    write_loads();
+    out += "*NODE FILE\nU, RF\n*EL FILE\nS\n";
+    if (has_contacts)
+      out += "*CONTACT FILE\nCDIS, CSTR\n";
+    out += "*END STEP\n";
+    std::string text = "*HEADING\nModel of Snug at the positions of its nodes without a load\n";
+    for (const auto &line : left_out)
+      text += "** not in this deck: " + line + '\n';
+    return {text + out, left_out};
+  }
+
+private:
+  const state::StateSolver<dim> &solver;
+  const mesh::BodyMesh<dim>     &mesh;
+  const scene::Scene            &scene;
+  const WholeMesh<dim>          &whole;
+  const Frames                  &frames;
+  const DeckMeshText<dim>        mesh_text;
+  std::string                    out;
+  std::vector<std::string>       left_out;
+  bool                           has_contacts = false;
+
+  void write_materials()
+  {
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      for (unsigned int r = 0; r < solver.model().bodies[b].materials.size(); ++r)
+        {
+          const auto name = region_name(mesh, scene, b, r);
+          if (std::none_of(whole.cells.begin(), whole.cells.end(),
+                           [&](const auto &cell) { return cell.body == b && cell.region == r; }))
+            continue;
+          const auto &material = solver.model().bodies[b].materials[r];
+          out += "*MATERIAL, NAME=" + name + "\n*ELASTIC\n" + exact(material.youngs_modulus) +
+                 ", " + exact(material.poissons_ratio) + '\n';
+          if (material.density > 0.)
+            out += "*DENSITY\n" + exact(material.density) + '\n';
+          out += "*SOLID SECTION, ELSET=" + name + ", MATERIAL=" + name + '\n';
+          if (dim == 2 && !mesh.idealization().is_axisymmetric())
+            out += exact(scene.thickness) + '\n';
+        }
+  }
+
+  /// Return the mean size of the faces of a side: the square root of the area between their
+  /// corners, or their length.
+  double face_size(const contact::Side &side) const
+  {
+    const unsigned int n     = mesh.degree() + 1;
+    double             sum   = 0.;
+    unsigned int       count = 0;
+    for (const auto &face : whole.faces)
+      if (contact::is_on(face, side))
+        {
+          const auto &first = whole.positions[face.nodes.front()];
+          const auto  along = whole.positions[face.nodes[n - 1]] - first;
+          ++count;
+          if (dim == 2)
+            sum += along.norm();
+          else
+            sum += std::sqrt(along.norm() *
+                             (whole.positions[face.nodes[face.nodes.size() - n]] - first).norm());
+        }
+    return count == 0 ? 1. : sum / count;
+  }
+
+  /// Return the surface of a side, which is written first if the side has several boundaries.
+  std::string surface_of(const contact::Side &side, const std::string &name)
+  {
+    if (side.boundaries().size() == 1)
+      return boundary_name(mesh, scene, side.boundaries()[0].first, side.boundaries()[0].second);
+    const std::string sides[6] = {dim == 2 ? "S4" : "S6",
+                                  dim == 2 ? "S2" : "S4",
+                                  dim == 2 ? "S1" : "S3",
+                                  dim == 2 ? "S3" : "S5",
+                                  "S1",
+                                  "S2"};
+    out += "*SURFACE, NAME=" + name + ", TYPE=ELEMENT\n";
+    for (const auto &face : whole.faces)
+      if (contact::is_on(face, side))
+        out += mesh_text.side(face);
+    return name;
+  }
+
+  void write_contacts()
+  {
+    unsigned int n = 0;
+    for (const auto &pair : solver.contact(0).pairs())
+      {
+        ++n;
+        if (pair.obstacle)
+          {
+            left_out.push_back("contact " + pair.name() + " with an obstacle");
+            continue;
+          }
+        double modulus = 0.;
+        for (const auto &side : {pair.slave, pair.master})
+          for (const auto &material : solver.model().bodies[side.body()].materials)
+            modulus = std::max(modulus, material.youngs_modulus);
+        const auto        id     = std::to_string(n);
+        const std::string slave  = surface_of(pair.slave, "slave-" + id),
+                          master = surface_of(pair.master, "master-" + id);
+        const double stiffness   = contact_penalty * modulus / face_size(pair.slave);
+        out += "*SURFACE INTERACTION, NAME=contact-" + id +
+               "\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n" + exact(stiffness) + '\n';
+        write_friction(pair, stiffness);
+        out += "*CONTACT PAIR, INTERACTION=contact-" + id + ", TYPE=SURFACE TO SURFACE\n" + slave +
+               ", " + master + '\n';
+        has_contacts = true;
+        if (pair.parameters.gap != "0")
+          left_out.push_back("'Gap' of contact " + pair.name());
+      }
+  }
+
+  void write_friction(const contact::Pair &pair, const double stiffness)
+  {
+    if (!pair.parameters.has_friction())
+      return;
+    const auto coefficient = constant(pair.parameters.friction_coefficient);
+    if (pair.parameters.friction != contact::Friction::Coulomb || !coefficient)
+      return left_out.push_back("friction of contact " + pair.name() +
+                                ", which has no constant coefficient");
+    if (*coefficient > 0.)
+      out += "*FRICTION\n" + exact(*coefficient) + ", " + exact(stiffness) + '\n';
+  }
+
+  /// The loads and prescribed displacements of the bodies and of the first load case, with the
+  /// names of the bodies in front of the boundaries.
+  std::vector<std::pair<std::string, const scene::LoadParameters *>> load_parameters() const
+  {
+    std::vector<std::pair<std::string, const scene::LoadParameters *>> result;
+    for (const auto &body : scene.bodies)
+      result.emplace_back(body.name + ".", &body.loads);
+    if (!scene.load_cases.empty())
+      result.emplace_back("", &scene.load_cases.front().loads);
+    return result;
+  }
+
+  /// Write supports and prescribed displacements by node sets if all of them are constants along
+  /// axes, otherwise node by node.
+  void write_supports()
+  {
+    std::string by_sets;
+    bool        is_simple = true;
+    for (const auto &body : scene.bodies)
+      for (const auto &[boundary, words] : body.supports)
+        for (const unsigned int c : scene::component_list(words, dim))
+          {
+            is_simple = is_simple && c < dim;
+            by_sets +=
+              body.name + '.' + boundary + ", " + deck_number(c) + ", " + deck_number(c) + '\n';
+          }
+    for (const auto &[prefix, loads] : load_parameters())
+      for (const auto &[boundary, text] : loads->displacements)
+        {
+          const auto [name, formula] = scene::split_displacement(text);
+          const unsigned int c       = *scene::component_number(name, dim);
+          const auto         value   = constant(formula);
+          is_simple                  = is_simple && c < dim && value;
+          by_sets += prefix + boundary + ", " + deck_number(c) + ", " + deck_number(c) + ", " +
+                     exact(value.value_or(0.)) + '\n';
+        }
+    if (!is_simple)
+      write_held_nodes();
+    else if (!by_sets.empty())
+      out += "*BOUNDARY\n" + by_sets;
+  }
+
+  void write_held_nodes()
+  {
+    const auto &held = solver.held();
+    for (unsigned int global = 0; global < whole.number_of.size(); ++global)
+      {
+        const unsigned int index = held.find(global), node = whole.number_of[global];
+        if (index == held.n_nodes() || !mesh_text.has(node))
+          continue;
+        const auto &frame = frames[index];
+        for (unsigned int j = 0; j < frame.directions.size(); ++j)
+          write_held_direction(node, frame.directions[j], frame.values[j].front());
+      }
+  }
+
+  /// Write d.u = value at a node: *BOUNDARY along an axis, otherwise *EQUATION.
+  void
+  write_held_direction(const unsigned int node, const dealii::Tensor<1, dim> &d, const double value)
+  {
+    const double             round_off = 1e-12;
+    std::vector<std::string> items;
+    unsigned int             largest = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (std::abs(d[c]) > std::abs(d[largest]))
+        largest = c;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (std::abs(d[c]) > round_off)
+        // CalculiX eliminates the first term of an equation.
+        items.insert(c == largest ? items.begin() : items.end(),
+                     deck_number(node) + ", " + deck_number(c) + ", " + exact(d[c]));
+    if (items.size() == 1)
+      {
+        out += "*BOUNDARY\n" + deck_number(node) + ", " + deck_number(largest) + ", " +
+               deck_number(largest) + ", " + exact(value / d[largest]) + '\n';
+        return;
+      }
+    out += deck_equation(items);
+    if (value != 0.)
+      left_out.push_back("prescribed displacement " + exact(value) +
+                         " along an oblique direction at node " + deck_number(node));
+  }
+
+  /// Return constant pressures and gravity as text; nothing if there are other loads.
+  std::optional<std::string> simple_loads() const
+  {
+    std::string text;
+    for (const auto &[prefix, loads] : load_parameters())
+      {
+        if (!loads->traction.empty() || !loads->force.empty() || !loads->moment.empty())
+          return {};
+        for (const auto &[boundary, formula] : loads->pressure)
+          {
+            const auto value = constant(formula);
+            if (!value)
+              return {};
+            text += "*DSLOAD\n" + prefix + boundary + ", P, " + exact(*value) + '\n';
+          }
+      }
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      {
+        if (!scene.bodies[b].body_force.empty())
+          return {};
+        const auto &gravity = solver.model().load_cases.front().bodies[b].gravity;
+        if (gravity.norm() == 0.)
+          continue;
+        text += "*DLOAD\n" + scene.bodies[b].name + ", GRAV, " + exact(gravity.norm());
+        for (unsigned int c = 0; c < 3; ++c)
+          text += ", " + exact(c < dim ? gravity[c] / gravity.norm() : 0.);
+        text += '\n';
+      }
+    return text;
+  }
+
+  void write_loads()
+  {
+    if (const auto text = simple_loads())
+      {
+        out += *text;
+        return;
+      }
+    if (mesh.degree() == 2)
+      return left_out.push_back("loads other than constant pressures and gravity, because the "
+                                "elements have no nodes in the middles of faces");
+    out += "*CLOAD\n";
+    for (const unsigned int node : mesh_text.used_nodes())
+      for (unsigned int c = 0; c < dim; ++c)
+        if (whole.forces[node][c] != 0.)
+          out +=
+            deck_number(node) + ", " + deck_number(c) + ", " + exact(whole.forces[node][c]) + '\n';
+  }
+};
+} // namespace
+
+template <int dim>
+DeckExport deck_text(const state::StateSolver<dim>                              &solver,
+                     const scene::Scene                                         &scene,
+                     const WholeMesh<dim>                                       &whole,
+                     const typename supports::DirichletConstraints<dim>::Frames &frames)
+{
+  return DeckWriter<dim>(solver, scene, whole, frames).result();
+}
+
+template DeckExport deck_text(const state::StateSolver<2> &,
+                              const scene::Scene &,
+                              const WholeMesh<2> &,
+                              const supports::DirichletConstraints<2>::Frames &);
+template DeckExport deck_text(const state::StateSolver<3> &,
+                              const scene::Scene &,
+                              const WholeMesh<3> &,
+                              const supports::DirichletConstraints<3>::Frames &);
+} // namespace snug::io
