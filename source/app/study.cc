@@ -131,6 +131,7 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   auto mesh = timed_mesh<dim>(context, scene);
   print_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_import_notes(scene, context.out());
+  print_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   for (const auto &line : unrefined(scene, *mesh))
     context.warn(line);
@@ -296,7 +297,8 @@ int run(const Options &options)
   const scene::Scene scene = scene::read_scene(
     {options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
      options.sets, options.output,
-     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }});
+     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
+     MPI_COMM_WORLD});
   context.set_verbosity(scene.output.verbosity);
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
