@@ -254,6 +254,17 @@ void print_estimate(RunContext                &context,
   });
 }
 
+void print_faces(const scene::Scene &scene, std::ostream &out)
+{
+  for (const auto &body : scene.bodies)
+    if (body.mesh.imported && !body.mesh.imported->faces.empty())
+      {
+        out << "body " << body.name << ", " << body.mesh.file << ":\n";
+        for (const auto &line : body.mesh.imported->faces)
+          out << "  " << line << '\n';
+      }
+}
+
 void print_import_notes(const scene::Scene &scene, std::ostream &out)
 {
   for (const auto &body : scene.bodies)

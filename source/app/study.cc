@@ -140,6 +140,7 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   auto mesh = timed_mesh<dim>(context, scene);
   print_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_import_notes(scene, context.out());
+  print_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   for (const auto &line : unrefined(scene, *mesh))
     context.warn(line);
@@ -334,7 +335,8 @@ int run(const Options &options)
   scene::SceneSource source = {
     options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
     options.sets, options.output,
-    [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }};
+    [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
+    MPI_COMM_WORLD};
   const auto left_out = translate_deck(source, options.translate);
   if (options.translate)
     {

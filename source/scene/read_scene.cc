@@ -1,3 +1,4 @@
+#include <snug/cad/import_cad.h>
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/scene/cases.h>
 #include <snug/scene/check.h>
@@ -163,20 +164,21 @@ std::string mesh_text(const SceneSource &source, const std::string &file)
     }
 }
 
-/// Read the mesh files of all bodies. Their paths become absolute, so that the scene may be
-/// printed in another directory.
+/// Read the mesh files and CAD files of all bodies. Their paths become absolute, so that the scene
+/// may be printed in another directory.
 void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene)
 {
   for (auto &body : scene.bodies)
     {
       auto &mesh = body.mesh;
-      if (mesh.source != geometry::Source::file)
+      if (mesh.source != geometry::Source::file && mesh.source != geometry::Source::cad)
         continue;
       for (const auto &[region, material] : body.materials)
         mesh.named_regions.push_back(region);
       const SectionCheck section(body.section(), origins, scene.dimension);
+      const bool         is_cad = mesh.source == geometry::Source::cad;
       section.require(!mesh.file.empty() && source.read_file, "File", mesh.file,
-                      "must be a mesh file");
+                      is_cad ? "must be a CAD file" : "must be a mesh file");
       try
         {
           namespace fs = std::filesystem;
@@ -184,7 +186,9 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
                         .lexically_normal()
                         .string();
           mesh.imported =
-            mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
+            is_cad ? cad::import_cad(mesh, scene.dimension, scene.output_directory + "/cad",
+                                     body.name, source.communicator)
+                   : mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
         }
       catch (const InputError &error)
         {

@@ -73,6 +73,9 @@ void print_estimate(RunContext                &context,
                     unsigned int               n_ranks,
                     bool                       stages);
 
+/// Print the faces of the CAD files of all bodies.
+void print_faces(const scene::Scene &scene, std::ostream &out);
+
 /// One line for each body whose mesh file was changed on reading.
 void print_import_notes(const scene::Scene &scene, std::ostream &out);
 } // namespace snug::app

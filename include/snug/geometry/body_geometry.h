@@ -30,7 +30,8 @@ enum class Source
   cylinder,
   sphere,
   shell,
-  file
+  file,
+  cad
 };
 Names names(Source);
 
@@ -82,7 +83,7 @@ struct BodyMeshParameters
   std::vector<unsigned int> round_cells;
   /// @}
 
-  /// @name Mesh files
+  /// @name Mesh files and CAD files
   /// @{
   std::string              file;    ///< path
   std::vector<std::string> regions; ///< regions of the file in the body; empty: all
@@ -93,6 +94,12 @@ struct BodyMeshParameters
   /// boundary -> "facets" | "smooth"
   std::map<std::string, std::string>  surfaces;
   std::shared_ptr<const ImportedMesh> imported; ///< contents of the file
+  unsigned int solid = 0; ///< number of the solid of a CAD file, from 1; 0: the only one
+  /// boundary -> faces of a CAD file, "3 + 4 + chain 7"
+  std::map<std::string, std::string> cad_faces;
+  double                             element_size = 0.; ///< of the mesh of a CAD file [length]
+  std::map<std::string, double>      face_sizes;        ///< boundary -> element size [length]
+  double                             size_growth = 0.3; ///< of element sizes per distance
   /// @}
 
   /// @name Regions, to which materials may refer, and parts of boundaries
