@@ -1,6 +1,7 @@
 #include <snug/accuracy/contact_pressure.h>
 #include <snug/accuracy/local_errors.h>
 #include <snug/elasticity/cell_point.h>
+#include <snug/mesh/face_nodes.h>
 #include <snug/mesh/shared_nodes.h>
 
 #include <cmath>
@@ -163,8 +164,8 @@ void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual
 template <int dim>
 void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) const
 {
-  for (const auto &face : mesh.boundary_faces())
-    if (applied.act_on(face, of))
+  for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
+    if (const auto &face = mesh.boundary_faces()[f]; applied.act_on(face, of))
       {
         const auto  X         = fields.positions(face.cell);
         const auto  reference = fields.at_cell(face.cell, mesh.reference_positions());
@@ -180,6 +181,13 @@ void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) con
                                          applied.spread(face, point, of),
                                        r[face.cell]);
           }
+        Nodes at_nodes;
+        for (const unsigned int node : face.nodes)
+          at_nodes.push_back(fields.local_positions[node]);
+        for (const auto &force : solver.concentrated().on_face(state.load_case, f))
+          elasticity::add_force<dim>(spaces[0].functions.at(
+                                       mesh::point_on_face<dim>(face.number, force.shape.point)),
+                                     of.loads * force.total(at_nodes), r[face.cell]);
       }
 }
 

@@ -1,5 +1,6 @@
 #include <snug/response/quantities.h>
 #include <snug/state/cell_gradients.h>
+#include <snug/state/thermal.h>
 
 namespace snug::response {
 namespace {
@@ -13,7 +14,7 @@ public:
     : member(value), stiffness(stiffness), load(load)
   {}
 
-  /// Return whether J = 1/2 u'Ku - f'u, which has dJ/du = Ku - f = -B'lambda.
+  /// Return whether J is the potential energy, which has dJ/du = Ku - f - f_T = -B'lambda.
   bool stationary() const override { return stiffness == 1. && load == -1.; }
 
   double value(const state::StateSolver<dim> &, const State &state) const override
@@ -51,10 +52,25 @@ public:
     if (load != 0.)
       // The loads are dead loads: f depends on X, not on u.
       state::add_load_gradient(solver, state, state.u, load, result.positions);
+    if (state::has_temperature(solver, state))
+      add_thermal(solver, state, result);
     return result;
   }
 
 private:
+  /// The loads contain those of thermal strains, f_T, which count in the strain energy alone. Add
+  /// stiffness * (c_T - f_T'u) - load * f_T'u.
+  void add_thermal(const state::StateSolver<dim> &solver,
+                   const State                   &state,
+                   Partials<dim>                 &partials) const
+  {
+    const double work = -stiffness - load;
+    const auto   f_T  = state::thermal_loads(solver, state);
+    for (unsigned int s = 0; s < f_T.size(); ++s)
+      partials.u[s].add(work, f_T[s]);
+    state::add_thermal_gradient(solver, state, work, stiffness, partials.positions);
+  }
+
   double State::*member;
   double         stiffness, load;
 };

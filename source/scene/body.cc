@@ -119,6 +119,12 @@ void Body::declare(Entries &entries)
               allowed("formulas separated by commas or blanks, one per dimension"),
               "The force per volume along x, y, z, as formulas of x, y, z in the reference "
               "geometry. Units: force/length^3. An empty list means no body force.");
+  entries.add(
+    "Temperature", temperature, allowed("a formula of x, y, z"),
+    "The temperature above that of the unstressed body, a number or a formula of x, y, z in "
+    "the reference geometry, which causes the thermal strain 'Expansion' times "
+    "'Temperature': '80 + 20*x'. The temperature moves with the material. Units: "
+    "temperature. An empty value means none.");
 }
 
 void check_body(const Scene &scene, const SectionCheck &section, const Body &body)
@@ -148,5 +154,7 @@ void check_loads(const SectionCheck &section, const Body &body, LoadParameters::
                   "must have " + to_text(section.dimension) + " formulas, one per dimension");
   for (const auto &formula : body.body_force)
     geometry::require_formula(section, "Body force", value, formula);
+  if (!body.temperature.empty())
+    geometry::require_formula(section, "Temperature", body.temperature, body.temperature);
 }
 } // namespace snug::scene

@@ -70,8 +70,7 @@ void SubdomainDerivative<dim>::add_cells(const std::vector<Field> &velocities,
                                          qp::MultiVector          &ft) const
 {
   const auto &assembler = *solver.assemblers()[s];
-  const auto &element   = assembler.element();
-  const bool  loaded    = assembler.has_body_force(state.load_case);
+  const bool  loaded    = assembler.has_cell_loads(state.load_case);
   for (unsigned int i = 0; i < assembler.cells().size(); ++i)
     {
       std::vector<unsigned int> moving; // velocities that move the cell
@@ -92,17 +91,15 @@ void SubdomainDerivative<dim>::add_cells(const std::vector<Field> &velocities,
         assembler.add_cell_vector(i, -1., r[j], ft.column(moving[j]));
       if (!loaded)
         continue;
-      const auto b = assembler.body_force(i, state.load_case);
+      const auto force = [&](const Nodes<dim> &x, Nodes<dim> &f) {
+        f = assembler.cell_load(i, x, state.load_case);
+      };
       for (unsigned int j = 0; j < moving.size(); ++j)
-        {
-          Nodes<dim> change;
-          if (differences == nullptr)
-            element.body_force_derivative(X, V[j], b, change);
-          else
-            change = differences->load_derivative(
-              [&](const Nodes<dim> &x, Nodes<dim> &f) { element.body_force(x, b, f); }, X, V[j]);
-          assembler.add_cell_vector(i, 1., change, ft.column(moving[j]));
-        }
+        assembler.add_cell_vector(i, 1.,
+                                  differences == nullptr
+                                    ? assembler.cell_load_derivative(i, X, V[j], state.load_case)
+                                    : differences->load_derivative(force, X, V[j]),
+                                  ft.column(moving[j]));
     }
 }
 

@@ -1,7 +1,10 @@
 #include <snug/state/contact_results.h>
 #include <snug/state/continuity.h>
 #include <snug/state/reactions.h>
+#include <snug/state/thermal.h>
 #include <snug/state/validity_checks.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +80,19 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
   state.compliance    = sums[1];
   // The error of this dual value is the square of the error of the residual.
   state.energy = sums[3] / 2 - sums[2] / 2;
+  if (!has_temperature(solver, state))
+    return;
+  // The elastic energy is that of the strain without the thermal strain.
+  double     work = 0.;
+  const auto f_T  = thermal_loads(solver, state);
+  for (unsigned int s = 0; s < f_T.size(); ++s)
+    for (unsigned int i = 0; i < f_T[s].n_rows(); ++i)
+      work += f_T[s](i) * state.u[s](i);
+  work                  = dealii::Utilities::MPI::sum(work, solver.context().communicator());
+  const double constant = thermal_energy(solver, state);
+  state.strain_energy += constant - work;
+  state.compliance -= work;
+  state.energy += constant;
 }
 
 /// Return the contacts of all ranks that slip, ascending. Collective.

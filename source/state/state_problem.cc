@@ -66,6 +66,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   , context(context)
   , face_load(mesh.degree(), mesh.idealization())
   , resultants(mesh, face_load, model.load_cases)
+  , concentrated(mesh, model.load_cases)
   , surface(mesh, contact::boundaries_of(model.pairs))
   , factor_cache(model.feti.factorization, context)
 {
@@ -90,7 +91,8 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
     {
       const auto &subdomain = tearing.subdomains[s];
       assemblers.push_back(std::make_unique<Assembler<dim>>(mesh, subdomain, model,
-                                                            elements[subdomain.body], face_load));
+                                                            elements[subdomain.body], face_load,
+                                                            concentrated));
       systems[s].body        = subdomain.body;
       systems[s].K           = factor_cache.patterns.of(assemblers[s]->sparsity());
       systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);

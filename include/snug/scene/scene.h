@@ -64,6 +64,8 @@ struct Body
   LoadParameters                     loads;
   /// formulas of the components [force / length^3]; empty: none
   std::vector<std::string> body_force;
+  /// formula of the temperature above that of the unstressed body; empty: none
+  std::string temperature;
 
   std::string section() const { return "Body " + name; }
 

@@ -69,6 +69,7 @@ public:
   std::vector<elasticity::Element<dim>>                elements; ///< per body
   elasticity::FaceLoad<dim>                            face_load;
   ResultantLoads<dim>                                  resultants;
+  ConcentratedLoads<dim>                               concentrated;
   mesh::Surface<dim>                                   surface;
   std::unique_ptr<supports::DirichletConstraints<dim>> held;
   std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
