@@ -191,6 +191,36 @@ void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) con
       }
 }
 
+/// Add the tractions -k (q . v) q of springs for the displacement v. Springs at points are left to
+/// the solution, whose stress is singular there.
+template <int dim>
+void LocalErrors<dim>::add_springs(const Loaded &of, std::vector<Residual> &r) const
+{
+  for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
+    for (const auto &spring : solver.model().springs)
+      {
+        const auto &face = mesh.boundary_faces()[f];
+        if (spring.place || spring.body != face.body || spring.boundary != face.boundary)
+          continue;
+        const auto  X         = fields.positions(face.cell);
+        const auto  reference = fields.at_cell(face.cell, mesh.reference_positions());
+        const auto  v         = fields.at_cell(face.cell, of.displacement);
+        const auto &on_face   = face_points[face.number];
+        for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
+          {
+            const auto            &shape     = on_face.shapes[q];
+            const auto             area      = area_vector(shape, face.number, X);
+            dealii::Tensor<1, dim> direction = area / area.norm();
+            if (spring.component != supports::Support<dim>::normal)
+              direction = dealii::Point<dim>::unit_vector(spring.component);
+            const double force =
+              spring.stiffness(dealii::Point<dim>(elasticity::value(shape, reference))) *
+              area.norm() * (direction * elasticity::value(shape, v));
+            elasticity::add_force<dim>(on_face.functions[q], -force * direction, r[face.cell]);
+          }
+      }
+}
+
 template <int dim>
 void LocalErrors<dim>::add_contact(const Loaded &of, std::vector<Residual> &r) const
 {
@@ -237,6 +267,7 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
     r.emplace_back(spaces[cell.body].size(), 0.);
   add_interior_faces(of, r);
   add_loads(of, r);
+  add_springs(of, r);
   if (solver.contact(state.load_case).n_rows() > 0)
     add_contact(of, r);
   return r;

@@ -190,6 +190,26 @@ static dealii::Tensor<1, dim> field_of(const std::vector<state::PlacedForce<dim>
   return sum;
 }
 
+/// Return the stiffness per area of the springs at a point, and a tensor field that has the
+/// symmetries of the springs at points.
+template <int dim>
+static dealii::Tensor<2, dim>
+stiffness_of_springs(const state::Model<dim> &model, const Place<dim> &at, const double length)
+{
+  dealii::Tensor<2, dim> sum;
+  for (const auto &spring : model.springs)
+    if (spring.body == at.body && spring.boundary == at.boundary)
+      {
+        dealii::Tensor<1, dim> q = at.normal;
+        if (spring.component != supports::Support<dim>::normal)
+          q = dealii::Point<dim>::unit_vector(spring.component);
+        const double decay =
+          spring.place ? std::exp(-at.x.distance_square(*spring.place) / (length * length)) : 1.;
+        sum += decay * spring.stiffness(at.x) * outer_product(q, q);
+      }
+  return sum;
+}
+
 /// Prescribed components are those of supports. Their directions are at right angles or, at oblique
 /// faces, differ in the same way at both points of a symmetry.
 template <int dim>
@@ -227,6 +247,7 @@ void Conditions<dim>::add_loads(const Place<dim>  &at,
       for (unsigned int i = 0; i < dim; ++i)
         moment[i][j] = column[i];
     }
+  data.push_back(tensor_datum(stiffness_of_springs(input.model(), at, 0.3 * size())));
   for (const auto &v : {prescribed, traction, concentrated, total.force})
     data.push_back(vector_datum(v));
   data.push_back(tensor_datum(moment));

@@ -119,6 +119,18 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
                     objective + "'");
 }
 
+/// Check that the dual problem has no springs where it is exported.
+void check_export(const Scene &scene, const Origins &origins)
+{
+  const bool has_springs =
+    std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) {
+      return !body.springs.empty() || !body.point_springs.empty();
+    });
+  SectionCheck("Output", origins, scene.dimension)
+    .require(!scene.output.export_qp || !has_springs, "Export QP", "true",
+             "must be false with springs, which the exported matrices do not contain");
+}
+
 /// Check what does not know friction.
 void check_friction(const Scene &scene, const Origins &origins)
 {
@@ -190,6 +202,7 @@ void check(const Scene &scene, const Origins &origins)
   for (const auto &body : scene.bodies)
     check_body(scene, section(body.section()), body);
   check_all_loads(scene, origins);
+  check_export(scene, origins);
   check_contact(scene, origins);
   check_shapes(scene, origins);
   check_responses(scene, origins);

@@ -229,7 +229,8 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim>  &solv
         }
       add(stencil.weights[k] / step, rows, result);
     }
-  // Tangential rows are known functions of the normal rows.
+  // Springs are differentiated exactly, and tangential rows are known functions of the normal rows.
+  result.springs      = solver.springs().row_derivatives(X, V);
   const auto &contact = solver.contact(state.load_case);
   const auto &surface = solver.surface();
   const auto  x       = surface.gather(X);
@@ -283,6 +284,9 @@ KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
       const auto derivative = row_derivatives<dim>(solver, state, velocities[j], parameters);
       const auto g          = gluing.right_hand_side_derivative(rows, derivative, state.load_case);
       std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
+      const auto D = gluing.compliance_derivatives(rows, derivative);
+      for (unsigned int i = 0; i < D.size(); ++i)
+        result.dual(i, j) += D[i] * state.dual.lambda(i);
       const auto changes = solver.resultants().traction_derivatives(state.positions, velocities[j]);
       for (unsigned int s = 0; s < state.u.size(); ++s)
         {

@@ -1,19 +1,14 @@
 #include <snug/base/errors.h>
-#include <snug/contact/nearest_face.h>
+#include <snug/state/boundary_point.h>
 #include <snug/state/concentrated_loads.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 namespace snug::state {
 namespace {
-/// Maximum distance of a place from its face, in sizes of the face. The faces of a curved boundary
-/// are off the true surface, on which the user gives the place.
-const double most_distance = 0.1;
-
 /// Pieces of a line per smallest face, and their maximum number.
 const double       pieces_per_face = 8.;
 const unsigned int most_pieces     = 20000;
@@ -77,21 +72,10 @@ public:
     return smallest;
   }
 
-  /// Return the face at a point. @throws InputError if the point is not on the boundary.
   typename contact::NearestFace<dim>::Found at(const dealii::Point<dim> &x,
                                                const PlacedForce<dim>   &given) const
   {
-    const auto   found    = search->closest(x);
-    const double distance = std::sqrt(found.point.squared_distance);
-    if (distance > most_distance * size(found.face))
-      {
-        std::ostringstream text;
-        text << given.name << ": the point (" << x
-             << ") is not on the boundary, whose nearest point (" << found.point.position
-             << ") is at the distance " << distance;
-        throw InputError(text.str());
-      }
-    return found;
+    return face_at(surface, *search, x, given.name);
   }
 
   const mesh::Surface<dim>                         surface;

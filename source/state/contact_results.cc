@@ -51,9 +51,9 @@ namespace {
 /// same fraction of the maximum F_ii lambda_i, the contact is weak.
 const double strong_part = 1e-6;
 
-/// Compute the energies. The energy is the dual value -(1/2 lambda'F lambda - lambda'd) - 1/2
-/// f'K^+f. With the residual d - F lambda this value is 1/2 lambda'(d + residual) - 1/2 f'K^+f and
-/// needs no F-mult.
+/// Compute the energies of bodies and springs. The energy is the dual value -(1/2 lambda'F lambda -
+/// lambda'd) - 1/2 f'K^+f. With the residual d - F lambda this value is 1/2 lambda'(d + residual) -
+/// 1/2 f'K^+f and needs no F-mult.
 template <int dim>
 void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
 {
@@ -74,7 +74,11 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
         }
     }
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
-    sums[3] += state.dual.lambda(i) * (feti.d()(i) + state.dual.residual(i));
+    {
+      const double lambda = state.dual.lambda(i);
+      sums[0] += feti.linearization().compliance(i) * lambda * lambda; // energy of springs
+      sums[3] += lambda * (feti.d()(i) + state.dual.residual(i));
+    }
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, solver.context().communicator());
   state.strain_energy = sums[0] / 2;
   state.compliance    = sums[1];

@@ -68,6 +68,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   , resultants(mesh, face_load, model.load_cases)
   , concentrated(mesh, model.load_cases)
   , surface(mesh, contact::boundaries_of(model.pairs))
+  , springs(mesh, model, face_load, positions)
   , factor_cache(model.feti.factorization, context)
 {
   for (const auto &body : model.bodies)
@@ -308,7 +309,8 @@ void StateProblem<dim>::linearize(PositionProblem<dim> &at)
   for (unsigned int s = 0; s < systems.size(); ++s)
     at.gluing->fill_B(s, at.rows, B[s]);
   at.linearization =
-    std::make_unique<const feti::Linearization>(*at.structure, systems, std::move(B), shared);
+    std::make_unique<const feti::Linearization>(*at.structure, systems, std::move(B), shared,
+                                                at.gluing->compliances(at.rows));
   shared = at.linearization->shared();
 }
 
@@ -366,7 +368,7 @@ RowCoefficients<dim> StateProblem<dim>::rows_of(const PositionProblem<dim> &at,
                                                 const Field                &x) const
 {
   const auto           on_surface = surface.gather(x);
-  RowCoefficients<dim> rows{at.contact->rows(on_surface), {}, held->frames(x)};
+  RowCoefficients<dim> rows{at.contact->rows(on_surface), {}, held->frames(x), springs.rows(x)};
   rows.tangents = at.contact->tangent_rows(on_surface, rows.contact);
   return rows;
 }

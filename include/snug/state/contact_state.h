@@ -14,7 +14,7 @@ namespace snug::state {
 /**
  * Relative errors of a solution, recomputed from K, f, B and g:
  * - Equilibrium is ||K u - f + B' lambda|| / (||f|| + ||B' lambda||), the maximum over bodies.
- * - Continuity is max|B_E u - g_E| and penetration is max(B_I u - g_I)+, both over
+ * - Continuity is max|B_E u - D lambda - g_E| and penetration is max(B_I u - g_I)+, both over
  *   max_i(F_ii |lambda_i|, |f_i| / K_ii).
  * - Negative pressure is max(-lambda_I)+ over max lambda_I.
  * - Complementarity is |lambda' w| over the strain energy.

@@ -8,6 +8,7 @@
 #include <snug/feti/feti_parameters.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/qp/solver.h>
+#include <snug/supports/spring.h>
 #include <snug/supports/support.h>
 
 #include <deal.II/base/exceptions.h>
@@ -86,6 +87,7 @@ struct Model
   std::vector<BodyModel<dim>>         bodies;
   std::vector<LoadCase<dim>>          load_cases; ///< at least one
   std::vector<supports::Support<dim>> supports;
+  std::vector<supports::Spring<dim>>  springs;
   std::vector<contact::Pair>          pairs;
   /// minimum of a cell; meshes and designs with a cell below it are rejected
   double               least_scaled_jacobian = 0.;

@@ -71,6 +71,7 @@ public:
   ResultantLoads<dim>                                  resultants;
   ConcentratedLoads<dim>                               concentrated;
   mesh::Surface<dim>                                   surface;
+  Springs<dim>                                         springs;
   std::unique_ptr<supports::DirichletConstraints<dim>> held;
   std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
   std::vector<feti::SubdomainSystem>                   systems;
