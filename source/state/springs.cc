@@ -5,15 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 namespace snug::state {
 namespace {
-/// Nodes with less than this part of the maximum stiffness of a side have no spring. Their area is
-/// zero except for rounding.
-const double least_stiffness = 1e-10;
-
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>>
 spring_boundaries(const std::vector<supports::Spring<dim>> &springs)
@@ -22,6 +17,18 @@ spring_boundaries(const std::vector<supports::Spring<dim>> &springs)
   for (const auto &spring : springs)
     boundaries.insert({spring.body, spring.boundary});
   return {boundaries.begin(), boundaries.end()};
+}
+
+/// Return the faces of a surface on the boundary of a spring.
+template <int dim>
+std::vector<unsigned int> faces_of(const mesh::Surface<dim>    &surface,
+                                   const supports::Spring<dim> &spring)
+{
+  std::vector<unsigned int> result;
+  for (unsigned int f = 0; f < surface.faces().size(); ++f)
+    if (surface.faces()[f].body == spring.body && surface.faces()[f].boundary == spring.boundary)
+      result.push_back(f);
+  return result;
 }
 } // namespace
 
@@ -44,88 +51,68 @@ Springs<dim>::Springs(const mesh::BodyMesh<dim>       &mesh,
       add_point(spring);
     else
       add_sides(spring, x);
-  std::vector<double> size(surface.n_nodes(), 0.);
-  for (const auto &face : surface.faces())
-    for (const unsigned int node : face.nodes)
-      size[node] = std::max(size[node], (x[face.nodes.back()] - x[face.nodes.front()]).norm());
-  for (unsigned int g = 0; g < groups.size(); ++g)
-    {
-      const auto &group    = groups[g];
-      double      softness = 0.; // of the body
-      for (const auto &material : model.bodies[group.spring->body].materials)
-        softness = std::max(softness, material.youngs_modulus);
-      const auto scale = [&](const unsigned int node, const double stiffness) {
-        const double of_body =
-          softness * mesh.idealization().weight(x[node]) * std::pow(size[node], dim - 2);
-        return std::sqrt(1. + of_body / stiffness);
-      };
-      if (group.spring->place)
-        {
-          const double stiffness = group.spring->stiffness(*group.spring->place);
-          if (stiffness > 0.)
-            places.push_back({g, without_hanging(group.at), scale(group.at[0].first, stiffness)});
-          continue;
-        }
-      const auto   kappa   = stiffnesses(group, x);
-      const double largest = *std::max_element(kappa.begin(), kappa.end());
-      for (unsigned int node = 0; node < kappa.size(); ++node)
-        if (kappa[node] > least_stiffness * largest)
-          places.push_back({g, {{node, 1.}}, scale(node, kappa[node])});
-    }
+  set_scales(x);
 }
 
-/// Add a group for each smooth side of the boundary, because a node at a sharp edge has a normal on
-/// each side.
+/// Add a group for each smooth side of the boundary, because the normals of a sharp edge are those
+/// of both sides.
 template <int dim>
 void Springs<dim>::add_sides(const supports::Spring<dim> &spring, const SurfaceField &x)
 {
-  std::vector<std::vector<unsigned int>> sides(1);
-  if (spring.component == supports::Support<dim>::normal)
-    sides = supports::smooth_sides(surface, {{spring.body, spring.boundary}}, shape, x);
-  else
-    for (unsigned int f = 0; f < surface.faces().size(); ++f)
-      if (surface.faces()[f].body == spring.body && surface.faces()[f].boundary == spring.boundary)
-        sides[0].push_back(f);
+  const auto gauss = mesh::lagrange_gauss_points<dim - 1>(mesh.degree());
+  const auto sides = spring.component == supports::Support<dim>::normal
+                       ? supports::smooth_sides(surface, {{spring.body, spring.boundary}}, shape, x)
+                       : std::vector<std::vector<unsigned int>>{faces_of(surface, spring)};
   for (const auto &side : sides)
     {
-      groups.push_back({&spring, side, {}});
+      groups.push_back({&spring, side});
       for (const unsigned int face : side)
-        for (const auto &traction : load_of(groups.back(), face).traction)
-          if (traction[0] < 0.)
-            throw InputError(spring.name + ": the stiffness must not be negative");
+        {
+          const auto points =
+            face_load.quadrature_points(at_face(face, surface.reference_positions()));
+          for (unsigned int q = 0; q < points.size(); ++q)
+            {
+              const double k = spring.stiffness(dealii::Point<dim>(points[q]));
+              if (k < 0.)
+                throw InputError(spring.name + ": the stiffness must not be negative");
+              if (k > 0.)
+                places.push_back(
+                  {static_cast<unsigned int>(groups.size()) - 1, face, gauss[q].value, 1., q, k});
+            }
+        }
     }
 }
 
 template <int dim>
 void Springs<dim>::add_point(const supports::Spring<dim> &spring)
 {
-  std::vector<unsigned int> of_boundary;
-  for (unsigned int f = 0; f < surface.faces().size(); ++f)
-    if (surface.faces()[f].body == spring.body && surface.faces()[f].boundary == spring.boundary)
-      of_boundary.push_back(f);
-  const contact::NearestFace<dim> search(surface, of_boundary, shape,
+  const double k = spring.stiffness(*spring.place);
+  if (k == 0.)
+    return;
+  const contact::NearestFace<dim> search(surface, faces_of(surface, spring), shape,
                                          surface.reference_positions());
   const auto                      found = face_at(surface, search, *spring.place, spring.name);
-  Group                           group{&spring, {}, {}};
-  const auto                      values = shape.at(found.point.xi).value;
-  for (unsigned int a = 0; a < values.size(); ++a)
-    group.at.emplace_back(surface.faces()[found.face].nodes[a], values[a]);
-  groups.push_back(group);
+  groups.push_back({&spring, {}});
+  places.push_back({static_cast<unsigned int>(groups.size()) - 1, found.face,
+                    shape.at(found.point.xi).value, 1., 0, k});
 }
 
-/// Return the weights of masters for those of hanging nodes.
+/// Compare the stiffnesses with that of the body near the face, E h^(dim - 2) times the thickness
+/// or the circumference.
 template <int dim>
-typename Springs<dim>::Weights Springs<dim>::without_hanging(const Weights &weights) const
+void Springs<dim>::set_scales(const SurfaceField &x)
 {
-  std::map<unsigned int, double> sums;
-  for (const auto &[node, weight] : weights)
+  for (auto &place : places)
     {
-      if (surface.masters(node).empty())
-        sums[node] += weight;
-      for (const auto &[master, share] : surface.masters(node))
-        sums[master] += share * weight;
+      double modulus = 0.;
+      for (const auto &material : model.bodies[groups[place.group].spring->body].materials)
+        modulus = std::max(modulus, material.youngs_modulus);
+      const auto  &nodes = surface.faces()[place.face].nodes;
+      const double size  = (x[nodes.back()] - x[nodes.front()]).norm();
+      const double of_body =
+        modulus * mesh.idealization().weight(sum(place, x)) * (dim == 3 ? size : 1.);
+      place.scale = std::sqrt(1. + of_body / stiffness(place, x));
     }
-  return {sums.begin(), sums.end()};
 }
 
 template <int dim>
@@ -135,83 +122,84 @@ bool Springs<dim>::is_normal(const Group &group) const
 }
 
 template <int dim>
-std::vector<dealii::Tensor<1, dim>> Springs<dim>::at_face(const unsigned int  face,
-                                                          const SurfaceField &x) const
+typename Springs<dim>::Nodes Springs<dim>::at_face(const unsigned int  face,
+                                                   const SurfaceField &x) const
 {
-  std::vector<dealii::Tensor<1, dim>> result;
+  Nodes result;
   for (const unsigned int node : surface.faces()[face].nodes)
     result.push_back(x[node]);
   return result;
 }
 
-/// Return the stiffness per area as the first component of a traction, whose nodal forces are then
-/// the stiffnesses of the nodes.
+/// Return a traction of @p factor along the first axis at the Gauss point of the place alone.
 template <int dim>
-elasticity::FaceLoadValues<dim> Springs<dim>::load_of(const Group       &group,
-                                                      const unsigned int face) const
+elasticity::FaceLoadValues<dim> Springs<dim>::load_of(const Place &place, const double factor) const
 {
   elasticity::FaceLoadValues<dim> load;
-  for (const auto &x : face_load.quadrature_points(at_face(face, surface.reference_positions())))
-    {
-      load.traction.emplace_back();
-      load.traction.back()[0] = group.spring->stiffness(dealii::Point<dim>(x));
-    }
+  load.traction.resize(shape.n_nodes()); // as many as Gauss points
+  load.traction[place.gauss_point][0] = factor;
   return load;
 }
 
-/// Return the stiffnesses of all surface nodes, or their derivatives along @p velocity. Hanging
-/// nodes have none.
+/// Return kappa, or its derivative along @p velocity: the total force of the traction k at the
+/// Gauss point.
 template <int dim>
-std::vector<double> Springs<dim>::stiffnesses(const Group        &group,
-                                              const SurfaceField &x,
-                                              const SurfaceField *velocity) const
+double Springs<dim>::stiffness(const Place        &place,
+                               const SurfaceField &x,
+                               const SurfaceField *velocity) const
 {
-  std::vector<double>                 result(surface.n_nodes(), 0.);
-  std::vector<dealii::Tensor<1, dim>> f;
-  for (const unsigned int face : group.faces)
-    {
-      if (velocity)
-        face_load.force_derivative(at_face(face, x), at_face(face, *velocity), load_of(group, face),
-                                   {}, f);
-      else
-        face_load.force(at_face(face, x), load_of(group, face), f);
-      Weights shares;
-      for (unsigned int a = 0; a < f.size(); ++a)
-        shares.emplace_back(surface.faces()[face].nodes[a], f[a][0]);
-      for (const auto &[node, share] : without_hanging(shares))
-        result[node] += share;
-    }
+  if (groups[place.group].spring->place)
+    return velocity ? 0. : place.stiffness;
+  const auto load = load_of(place, place.stiffness);
+  Nodes      f;
+  if (velocity)
+    face_load.force_derivative(at_face(place.face, x), at_face(place.face, *velocity), load, {}, f);
+  else
+    face_load.force(at_face(place.face, x), load, f);
+  double total = 0.;
+  for (const auto &force : f)
+    total += force[0];
+  return total;
+}
+
+/// Return sum_a N_a field_a.
+template <int dim>
+dealii::Tensor<1, dim> Springs<dim>::sum(const Place &place, const SurfaceField &field) const
+{
+  dealii::Tensor<1, dim> result;
+  for (unsigned int a = 0; a < place.weights.size(); ++a)
+    result += place.weights[a] * field[surface.faces()[place.face].nodes[a]];
   return result;
 }
 
-/// Add d/dX sum_a factors_a kappa_a to the gradient.
+/// Return the row with c_a = N_a q. Masters have the shares of hanging nodes.
 template <int dim>
-void Springs<dim>::add_stiffness_gradient(const Group               &group,
-                                          const SurfaceField        &x,
-                                          const std::vector<double> &factors,
-                                          SurfaceField              &gradient) const
+SpringRow<dim> Springs<dim>::row(const Place &place, const dealii::Tensor<1, dim> &q) const
 {
-  for (const unsigned int face : group.faces)
+  std::map<unsigned int, double> weights;
+  for (unsigned int a = 0; a < place.weights.size(); ++a)
     {
-      const auto                         &nodes = surface.faces()[face].nodes;
-      std::vector<dealii::Tensor<1, dim>> of_nodes(nodes.size()), values(nodes.size());
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-        for (const auto &[node, share] : without_hanging({{nodes[a], 1.}}))
-          of_nodes[a][0] += share * factors[node];
-      face_load.add_force_gradient(at_face(face, x), load_of(group, face), of_nodes, 1., values);
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-        gradient[nodes[a]] += values[a];
+      const unsigned int node = surface.faces()[place.face].nodes[a];
+      if (surface.masters(node).empty())
+        weights[node] += place.weights[a];
+      for (const auto &[master, share] : surface.masters(node))
+        weights[master] += share * place.weights[a];
     }
+  SpringRow<dim> result;
+  result.scale = place.scale;
+  for (const auto &[node, weight] : weights)
+    result.coefficients.emplace_back(surface.global_node(node), weight * q);
+  return result;
 }
 
+/// Return the nodal normals of a group; empty if its direction is an axis.
 template <int dim>
-dealii::Tensor<1, dim> Springs<dim>::direction(const Group        &group,
-                                               const SurfaceField &normals,
-                                               const unsigned int  node) const
+typename Springs<dim>::SurfaceField Springs<dim>::normals(const Group        &group,
+                                                          const SurfaceField &x) const
 {
-  if (is_normal(group))
-    return normals[node];
-  return dealii::Point<dim>::unit_vector(group.spring->component);
+  if (!is_normal(group))
+    return {};
+  return faces::NodalNormals<dim>(surface, group.faces, shape, x).normals();
 }
 
 template <int dim>
@@ -224,24 +212,16 @@ std::vector<SpringRow<dim>> Springs<dim>::rows(const Field &positions) const
   auto       place = places.begin();
   for (unsigned int g = 0; g < groups.size(); ++g)
     {
-      const auto  &group = groups[g];
-      SurfaceField normals;
-      if (is_normal(group))
-        normals = faces::NodalNormals<dim>(surface, group.faces, shape, x).normals();
-      const auto kappa = stiffnesses(group, x);
+      const auto n = normals(groups[g], x);
       for (; place != places.end() && place->group == g; ++place)
         {
-          SpringRow<dim> row;
-          for (const auto &[node, weight] : place->weights)
-            row.coefficients.emplace_back(surface.global_node(node),
-                                          weight * direction(group, normals, node));
-          row.stiffness = group.spring->place ? group.spring->stiffness(*group.spring->place)
-                                              : kappa[place->weights[0].first];
-          row.scale     = place->scale;
-          // The condition is written so that it catches NaN.
-          if (!(row.stiffness > 0.))
-            throw TangledMesh("the design makes the area of a face with springs vanish");
-          result.push_back(row);
+          dealii::Tensor<1, dim> q;
+          if (is_normal(groups[g]))
+            q = sum(*place, n) / sum(*place, n).norm();
+          else
+            q[groups[g].spring->component] = 1.;
+          result.push_back(row(*place, q));
+          result.back().stiffness = stiffness(*place, x);
         }
     }
   return result;
@@ -258,19 +238,21 @@ std::vector<SpringRow<dim>> Springs<dim>::row_derivatives(const Field &positions
   auto       place = places.begin();
   for (unsigned int g = 0; g < groups.size(); ++g)
     {
-      const auto  &group = groups[g];
-      SurfaceField normals(surface.n_nodes());
-      if (is_normal(group))
-        normals = faces::NodalNormals<dim>(surface, group.faces, shape, x).derivative(V);
-      const auto kappa = stiffnesses(group, x, &V);
+      const auto   n = normals(groups[g], x);
+      SurfaceField dn;
+      if (is_normal(groups[g]))
+        dn = faces::NodalNormals<dim>(surface, groups[g].faces, shape, x).derivative(V);
       for (; place != places.end() && place->group == g; ++place)
         {
-          SpringRow<dim> row;
-          for (const auto &[node, weight] : place->weights)
-            row.coefficients.emplace_back(surface.global_node(node), weight * normals[node]);
-          if (!group.spring->place)
-            row.stiffness = kappa[place->weights[0].first];
-          result.push_back(row);
+          dealii::Tensor<1, dim> dq;
+          if (is_normal(groups[g]))
+            {
+              const auto   v = sum(*place, n), dv = sum(*place, dn);
+              const double length = v.norm();
+              dq                  = dv / length - (v * dv) / std::pow(length, 3) * v;
+            }
+          result.push_back(row(*place, dq));
+          result.back().stiffness = stiffness(*place, x, &V);
         }
     }
   return result;
@@ -292,24 +274,40 @@ void Springs<dim>::add_energy_gradient(const Field               &positions,
   unsigned int i = 0;
   for (unsigned int g = 0; g < groups.size(); ++g)
     {
-      const auto         &group = groups[g];
-      const auto          kappa = stiffnesses(group, x);
-      SurfaceField        of_normals(surface.n_nodes());
-      std::vector<double> of_stiffness(surface.n_nodes(), 0.);
+      const auto   n = normals(groups[g], x);
+      SurfaceField of_normals(surface.n_nodes());
       for (; i < places.size() && places[i].group == g; ++i)
         {
-          const unsigned int node = places[i].weights[0].first;
-          if (group.spring->place)
-            continue; // neither c nor kappa depends on the positions
-          of_normals[node] +=
-            factor * (forces_of_w[i] * u_here[node] + forces_of_u[i] * w_here[node]);
-          of_stiffness[node] +=
-            factor * forces_of_u[i] * forces_of_w[i] / (kappa[node] * kappa[node]);
+          const auto &place = places[i];
+          const auto &nodes = surface.faces()[place.face].nodes;
+          // neither c nor kappa of a spring at a point depends on the positions
+          if (groups[g].spring->place)
+            continue;
+          if (is_normal(groups[g]))
+            {
+              const auto   v      = sum(place, n);
+              const double length = v.norm();
+              const auto   of_q   = factor * (forces_of_w[i] * sum(place, u_here) +
+                                          forces_of_u[i] * sum(place, w_here));
+              const auto   of_v   = of_q / length - (v * of_q) / std::pow(length, 3) * v;
+              for (unsigned int a = 0; a < nodes.size(); ++a)
+                of_normals[nodes[a]] += place.weights[a] * of_v;
+            }
+          // kappa' / kappa^2 f_u f_w, with kappa = k dA
+          const double kappa = stiffness(place, x);
+          Nodes        along(nodes.size()), values(nodes.size());
+          for (auto &vector : along)
+            vector[0] = 1.;
+          face_load.add_force_gradient(at_face(place.face, x), load_of(place, place.stiffness),
+                                       along,
+                                       factor * forces_of_u[i] * forces_of_w[i] / (kappa * kappa),
+                                       values);
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            at_surface[nodes[a]] += values[a];
         }
-      if (is_normal(group))
-        faces::NodalNormals<dim>(surface, group.faces, shape, x)
+      if (is_normal(groups[g]))
+        faces::NodalNormals<dim>(surface, groups[g].faces, shape, x)
           .add_transpose(of_normals, at_surface);
-      add_stiffness_gradient(group, x, of_stiffness, at_surface);
     }
   surface.add_owned(at_surface, gradient);
 }

@@ -3,6 +3,7 @@
 
 #include <snug/feti/deflation.h>
 #include <snug/feti/dual_structure.h>
+#include <snug/feti/jump_operator.h>
 
 #include <memory>
 
@@ -105,14 +106,15 @@ public:
 private:
   class FetiFreeSet;
 
-  void                   factorize();
-  std::vector<double>    gather_entries();
-  void                   weight_ground(const std::vector<double> &entries);
-  qp::RowSet             rows_of_soft_modes() const;
-  std::vector<RowForces> find_soft_modes(const std::vector<double> &entries) const;
-  void                   weight_rows();
-  void                   precondition(qp::MultiVector &x) const;
-  unsigned int           n_columns(const PrimalVectors &v) const;
+  void                     factorize();
+  std::vector<double>      gather_entries();
+  void                     weight_ground(const std::vector<double> &entries);
+  qp::RowSet               rows_of_soft_modes() const;
+  std::vector<JumpColumns> jumps(const std::vector<double> &entries) const;
+  std::vector<RowForces>   find_soft_modes(const std::vector<double> &entries) const;
+  void                     weight_rows();
+  void                     precondition(qp::MultiVector &x) const;
+  unsigned int             n_columns(const PrimalVectors &v) const;
 
   const DualStructure                &structure;
   const std::vector<SubdomainSystem> &systems;

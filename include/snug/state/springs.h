@@ -1,7 +1,6 @@
 #ifndef snug_state_springs_h
 #define snug_state_springs_h
 
-#include <snug/contact/nearest_face.h>
 #include <snug/elasticity/face_load.h>
 #include <snug/faces/nodal_normals.h>
 #include <snug/state/model.h>
@@ -14,17 +13,17 @@ struct SpringRow
 {
   std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> coefficients; ///< global node, c_a
   double stiffness = 0.; ///< kappa [force / length]
-  /// factor of the length of the row of B that makes its compliance as large as that of the body
-  /// near it, or smaller
+  /// factor of the length of the row of B, with which its compliance is not above that of the body
   double scale = 1.;
 };
 
 /**
- * This class computes the rows of springs (supports::Spring). A spring on a boundary with stiffness
- * k per area and direction q is one spring at each node a that does not hang, with c_a = q and
- * kappa_a = int N_a k dA, shares of hanging nodes at their masters. q is an axis or the nodal
- * normal of a smooth side (supports::smooth_sides()). A spring at a point has c_a = N_a q with the
- * shape functions of the closest face. All data are replicated. Members with positions are
+ * This class computes the rows of springs (supports::Spring). A spring at a point in the direction
+ * q has c_a = N_a q with the shape functions of the closest face, and those of masters instead of
+ * hanging nodes. A spring on a boundary with the stiffness k per area is a spring at each Gauss
+ * point of its faces with kappa = k dA. There q is an axis, or sum_a N_a n_a over its length with
+ * the nodal normals n_a of a smooth side (supports::smooth_sides()); a rotation about the axis of a
+ * round side then stretches no spring. All data are replicated. Members with positions are
  * collective.
  */
 template <int dim>
@@ -57,51 +56,49 @@ public:
                            double                     factor,
                            Field                     &gradient) const;
 
-  /// Force of a spring on the body at a place.
+  /// Force of a spring on the body at a node.
   struct Force
   {
     std::string            face; ///< "body.boundary"
     unsigned int           body;
     dealii::Tensor<1, dim> position, value;
   };
-  /// Return the forces on the bodies for the forces kappa (c . u) of all rows.
+  /// Return the forces on the bodies for the forces kappa (c . u) of all rows. Collective.
   std::vector<Force> forces(const Field &positions, const std::vector<double> &forces_of_u) const;
 
 private:
+  using Nodes        = std::vector<dealii::Tensor<1, dim>>;
   using SurfaceField = typename mesh::Surface<dim>::Field;
-  using Weights      = std::vector<std::pair<unsigned int, double>>; ///< surface nodes
 
   /// A spring on one smooth side, or at a point.
   struct Group
   {
     const supports::Spring<dim> *spring;
     std::vector<unsigned int>    faces; ///< of the side
-    Weights                      at;    ///< shape functions of the point
   };
 
-  /// A row.
+  /// A row: a point of a face.
   struct Place
   {
-    unsigned int group;
-    Weights      weights; ///< one node with the weight 1, or those of the point
-    double       scale;
+    unsigned int        group, face;
+    std::vector<double> weights;     ///< shape functions of the face
+    double              scale;       ///< see SpringRow
+    unsigned int        gauss_point; ///< of the face
+    double              stiffness;   ///< per area, or at the point
   };
 
-  void                add_sides(const supports::Spring<dim> &spring, const SurfaceField &x);
-  void                add_point(const supports::Spring<dim> &spring);
-  Weights             without_hanging(const Weights &weights) const;
-  std::vector<double> stiffnesses(const Group        &group,
-                                  const SurfaceField &x,
-                                  const SurfaceField *velocity = nullptr) const;
-  void                add_stiffness_gradient(const Group               &group,
-                                             const SurfaceField        &x,
-                                             const std::vector<double> &factors,
-                                             SurfaceField              &gradient) const;
-  elasticity::FaceLoadValues<dim>     load_of(const Group &group, unsigned int face) const;
-  std::vector<dealii::Tensor<1, dim>> at_face(unsigned int face, const SurfaceField &x) const;
-  dealii::Tensor<1, dim>
-       direction(const Group &group, const SurfaceField &normals, unsigned int node) const;
-  bool is_normal(const Group &group) const;
+  void   add_sides(const supports::Spring<dim> &spring, const SurfaceField &x);
+  void   add_point(const supports::Spring<dim> &spring);
+  void   set_scales(const SurfaceField &x);
+  bool   is_normal(const Group &group) const;
+  Nodes  at_face(unsigned int face, const SurfaceField &x) const;
+  double stiffness(const Place        &place,
+                   const SurfaceField &x,
+                   const SurfaceField *velocity = nullptr) const;
+  elasticity::FaceLoadValues<dim> load_of(const Place &place, double factor) const;
+  dealii::Tensor<1, dim>          sum(const Place &place, const SurfaceField &field) const;
+  SpringRow<dim>                  row(const Place &place, const dealii::Tensor<1, dim> &q) const;
+  SurfaceField                    normals(const Group &group, const SurfaceField &x) const;
 
   const mesh::BodyMesh<dim>       &mesh;
   const Model<dim>                &model;
@@ -109,7 +106,7 @@ private:
   const faces::FaceShape<dim>      shape;
   const mesh::Surface<dim>         surface;
   std::vector<Group>               groups;
-  std::vector<Place>               places; ///< of the rows
+  std::vector<Place>               places; ///< of the rows, by group
 };
 } // namespace snug::state
 
