@@ -31,6 +31,12 @@ RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
     "norm": 5 * 2**.25, "peak": 5, "variance": Below(1e-12)}.items()})
 
 
+# Held, E alpha dT is the stress and its energy; free, there is none.
+HEATED_BAR = values({"load_cases.0.state.responses.stress": 2e5 * 1e-5 * 60,
+                     "load_cases.0.state.strain_energy": 120**2 / 2e5 * 4 / 2,
+                     "load_cases.1.state.responses.stress": Below(1e-6),
+                     "load_cases.1.state.strain_energy": Below(1e-9)})
+
 # Pressure 5 and shears 0.3 * 5 and 2 on areas of 1; slips are 0.01 - shear / 500.
 FRICTION_ENTRIES = values({"load_cases.0.state.responses.stuck": 1, **{
     f"load_cases.1.state.responses.{name}": answer for name, answer in {
@@ -47,6 +53,35 @@ def two_materials(result, _):
     pulled = .1**2 * (10 / soft + 20 / hard)
     return [(case["name"], case["state"]["strain_energy"], 10 * energy / 2)
             for case, energy in zip(result.summary["load_cases"], (hanging, pulled))]
+
+
+def point_loads(result, _):
+    """The plane w = a + b x + c y balances the springs and the loads."""
+    springs = [(100, 0, 0), (150, 3, 0), (200, 0, 2), (300, 3, 2)]
+    loads = [(10, .9, .7), (2 * math.hypot(2.6, 1.6), 1.5, 1.1), (3 * 2, 3, 1)]
+    rows = [[sum(k * p[i] * p[j] for k, *p in [(k, 1, x, y) for k, x, y in springs])
+             for j in range(3)] + [-sum(F * p[i] for F, *p in [(F, 1, x, y) for F, x, y in loads])]
+            for i in range(3)]
+    for i in range(3):  # Gauss-Jordan
+        rows[i] = [value / rows[i][i] for value in rows[i]]
+        for j in range(3):
+            if j != i:
+                rows[j] = [a - rows[j][i] * b for a, b in zip(rows[j], rows[i])]
+    a, b, c = (row[3] for row in rows)
+    return [("corner", result.state["responses"]["corner"], a + 3 * b + 2 * c),
+            ("reaction", result.state["reactions"][0]["force"][2], sum(F for F, *_ in loads))]
+
+
+def heated_tube(result, _):
+    """Timoshenko, Goodier, Theory of Elasticity: a tube in plane strain, here with the external
+    pressure of the springs."""
+    E, nu, alpha, k, a, b = 2e5, .3, 1e-5, 1e5, 1, 2
+    integral = 50 * 5 / 12  # of T r over r
+    outer, bore = (2 * (1 + nu) * alpha * r * integral / (b**2 - a**2) for r in (b, a))
+    by_pressure = (1 + nu) * b**2 / (E * (b**2 - a**2))
+    pressure = k * outer / (1 + k * by_pressure * ((1 - 2 * nu) * b + a**2 / b))
+    return [("bore", result.state["responses"]["bore"],
+             bore - pressure * by_pressure * 2 * (1 - nu) * a)]
 
 
 def named_boundaries(result, _):
@@ -213,6 +248,11 @@ CHECKS = [
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
     Check("boundary-formulas", [], boundary_formulas, 1e-6),
+    Check("point-loads", [], point_loads, 1e-6),
+    Check("point-loads", ["Decomposition/Subdomains=8", "Body block/Box cells=3, 5, 1"],
+          point_loads, 1e-6),
+    Check("heated-bar", [], HEATED_BAR, 1e-9),
+    Check("heated-tube", [], heated_tube, 1e-5),
     Check("lame-cylinder", [], lame_cylinder, 3e-3),
     Check("lame-cylinder", ["Obstacle pin/Shape=cylinder", "Obstacle pin/Formula="],
           same("state.max_pressure", "state.pairs.1.force.0"), 1e-6, []),

@@ -1,6 +1,7 @@
 #include <snug/accuracy/contact_pressure.h>
 #include <snug/accuracy/local_errors.h>
 #include <snug/elasticity/cell_point.h>
+#include <snug/mesh/face_nodes.h>
 #include <snug/mesh/shared_nodes.h>
 
 #include <cmath>
@@ -163,8 +164,8 @@ void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual
 template <int dim>
 void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) const
 {
-  for (const auto &face : mesh.boundary_faces())
-    if (applied.act_on(face, of))
+  for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
+    if (const auto &face = mesh.boundary_faces()[f]; applied.act_on(face, of))
       {
         const auto  X         = fields.positions(face.cell);
         const auto  reference = fields.at_cell(face.cell, mesh.reference_positions());
@@ -179,6 +180,43 @@ void LocalErrors<dim>::add_loads(const Loaded &of, std::vector<Residual> &r) con
                                        applied.by_area(face, point, of) +
                                          applied.spread(face, point, of),
                                        r[face.cell]);
+          }
+        Nodes at_nodes;
+        for (const unsigned int node : face.nodes)
+          at_nodes.push_back(fields.local_positions[node]);
+        for (const auto &force : solver.concentrated().on_face(state.load_case, f))
+          elasticity::add_force<dim>(spaces[0].functions.at(
+                                       mesh::point_on_face<dim>(face.number, force.shape.point)),
+                                     of.loads * force.total(at_nodes), r[face.cell]);
+      }
+}
+
+/// Add the tractions -k (q . v) q of springs for the displacement v. Springs at points are left to
+/// the solution, whose stress is singular there.
+template <int dim>
+void LocalErrors<dim>::add_springs(const Loaded &of, std::vector<Residual> &r) const
+{
+  for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
+    for (const auto &spring : solver.model().springs)
+      {
+        const auto &face = mesh.boundary_faces()[f];
+        if (spring.place || spring.body != face.body || spring.boundary != face.boundary)
+          continue;
+        const auto  X         = fields.positions(face.cell);
+        const auto  reference = fields.at_cell(face.cell, mesh.reference_positions());
+        const auto  v         = fields.at_cell(face.cell, of.displacement);
+        const auto &on_face   = face_points[face.number];
+        for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
+          {
+            const auto            &shape     = on_face.shapes[q];
+            const auto             area      = area_vector(shape, face.number, X);
+            dealii::Tensor<1, dim> direction = area / area.norm();
+            if (spring.component != supports::Support<dim>::normal)
+              direction = dealii::Point<dim>::unit_vector(spring.component);
+            const double force =
+              spring.stiffness(dealii::Point<dim>(elasticity::value(shape, reference))) *
+              area.norm() * (direction * elasticity::value(shape, v));
+            elasticity::add_force<dim>(on_face.functions[q], -force * direction, r[face.cell]);
           }
       }
 }
@@ -229,6 +267,7 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
     r.emplace_back(spaces[cell.body].size(), 0.);
   add_interior_faces(of, r);
   add_loads(of, r);
+  add_springs(of, r);
   if (solver.contact(state.load_case).n_rows() > 0)
     add_contact(of, r);
   return r;

@@ -173,6 +173,7 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
     }
   model.load_cases = build_load_cases(scene, mesh);
   model.supports   = build_supports(scene, mesh);
+  model.springs    = build_springs(scene, mesh);
   model.pairs      = build_pairs(scene, mesh);
   return model;
 }

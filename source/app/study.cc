@@ -333,8 +333,10 @@ int run(const Options &options)
   reserve_blas_buffer();
   RunContext         context(MPI_COMM_WORLD, std::cout);
   scene::SceneSource source = {
-    options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
-    options.sets, options.output,
+    options.file,
+    scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
+    options.sets,
+    options.output,
     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
     MPI_COMM_WORLD};
   const auto left_out = translate_deck(source, options.translate);

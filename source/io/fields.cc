@@ -201,7 +201,8 @@ std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &
     return {};
   using Stresses               = std::vector<dealii::SymmetricTensor<2, 3>>;
   const unsigned int n_regions = n_stress_regions(of.mesh);
-  auto in_bodies = nodal_stress(of.mesh, of.bodies, state.positions, state.displacement);
+  auto               in_bodies =
+    nodal_stress(of.mesh, of.bodies, state.positions, state.displacement, of.load_case.bodies);
   for (unsigned int i = 0; i < in_bodies.size(); ++i)
     if (const auto &motion = motions[of.mesh.body_of_node(i / n_regions)]; !motion.is_identity())
       {
@@ -245,7 +246,7 @@ std::string FieldOutput<dim>::write(const Sources                             &o
   const auto   gradient = summed(mesh, parameters.has("shape_gradient") ? shape_gradient : nullptr);
   Motions<dim> motions;
   for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
-    motions.push_back(of.position.of_body(body));
+    motions.push_back(of.load_case.position.of_body(body));
   const auto motion = [&](const unsigned int node) -> const geometry::RigidMotion<dim> & {
     return motions[mesh.body_of_node(node)];
   };

@@ -153,9 +153,9 @@ private:
     for (const auto &face : outer_faces(cells))
       {
         const auto own = exact_face.find(sorted(face));
-        result.push_back(
-          {face, mesh.boundaries.at(sorted(parts({face_shape(face), face, {}, 0, 0})[0])),
-           own == exact_face.end() ? Facet::no_face : own->second});
+        result.push_back({face,
+                          mesh.boundaries.at(sorted(parts({face_shape(face), face, {}, 0, 0})[0])),
+                          own == exact_face.end() ? Facet::no_face : own->second});
       }
     return result;
   }

@@ -12,14 +12,15 @@ ChoiceTable<MakeResponse<dim>> body_responses()
   using State = state::ContactState<dim>;
   return {
     {"potential energy",
-     "1/2 u'Ku - f'u [force length]. Its minimum at fixed volume makes the contact pressure "
-     "uniform.",
+     "strain energy minus compliance, 1/2 u'Ku - f'u [force length]. Its minimum at fixed volume "
+     "makes the contact pressure uniform.",
      [](const Parameters &) { return work<dim>(&State::energy, 1., -1.); }},
     {"compliance",
      "f'u, the work of the loads [force length]. It decreases if the design lifts a body that is "
      "held by contact alone.",
      [](const Parameters &) { return work<dim>(&State::compliance, 0., 1.); }},
-    {"strain energy", "1/2 u'Ku [force length]",
+    {"strain energy",
+     "1/2 u'Ku, the elastic energy of bodies and springs, without thermal strains [force length]",
      [](const Parameters &) { return work<dim>(&State::strain_energy, 1., 0.); }},
     {"volume", "volume of one body or all bodies [length^3]",
      [](const Parameters &parameters) { return body_integral<dim>(parameters, false); }},

@@ -1,6 +1,7 @@
 #include <snug/mesh/cell_shape.h>
 #include <snug/state/assembler.h>
 #include <snug/state/rigid_modes.h>
+#include <snug/state/thermal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +22,14 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
                           const mesh::Subdomain           &subdomain,
                           const Model<dim>                &model,
                           const elasticity::Element<dim>  &element,
-                          const elasticity::FaceLoad<dim> &face_load)
-  : mesh(mesh), subdomain(subdomain), model(model), the_element(element), face_load(face_load)
+                          const elasticity::FaceLoad<dim> &face_load,
+                          const ConcentratedLoads<dim>    &concentrated)
+  : mesh(mesh)
+  , subdomain(subdomain)
+  , model(model)
+  , the_element(element)
+  , face_load(face_load)
+  , concentrated(concentrated)
 {
   for (const unsigned int cell : subdomain.cells)
     cell_reach.emplace_back(mesh, mesh.cells()[cell].nodes, subdomain.nodes);
@@ -123,12 +130,9 @@ std::vector<double> Assembler<dim>::load(const Field     &positions,
 {
   std::vector<double> f(n_dofs(), 0.);
   Nodes               r;
-  if (has_body_force(load_case))
+  if (has_cell_loads(load_case))
     for (unsigned int i = 0; i < cell_reach.size(); ++i)
-      {
-        the_element.body_force(cell_field(i, positions), body_force(i, load_case), r);
-        add_cell_vector(i, 1., r, f.data());
-      }
+      add_cell_vector(i, 1., cell_load(i, cell_field(i, positions), load_case), f.data());
   for (unsigned int i = 0; i < faces.size(); ++i)
     {
       face_load.force(face_field(i, positions), face_load_values(i, load_case, tractions), r);
@@ -281,7 +285,8 @@ elasticity::FaceLoadValues<dim> Assembler<dim>::face_load_values(unsigned int   
     }
   // The traction of a resultant depends on the positions of the whole loaded boundary, also on
   // other ranks, and comes from ResultantLoads.
-  values.linear = linear_traction(i, load_case, tractions);
+  values.linear       = linear_traction(i, load_case, tractions);
+  values.concentrated = concentrated.on_face(load_case, faces[i]);
   return values;
 }
 
@@ -330,6 +335,68 @@ typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
   for (unsigned int q = 0; q < b.size(); ++q)
     b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));
   return b;
+}
+
+template <int dim>
+elasticity::ThermalStrain<dim> Assembler<dim>::thermal_strain(unsigned int i,
+                                                              unsigned int load_case) const
+{
+  return state::thermal_strain<dim>(loads(load_case), material(i),
+                                    cell_field(i, mesh.reference_positions()));
+}
+
+template <int dim>
+bool Assembler<dim>::has_cell_loads(unsigned int load_case) const
+{
+  return has_body_force(load_case) || loads(load_case).temperature;
+}
+
+template <int dim>
+typename Assembler<dim>::Nodes
+Assembler<dim>::cell_load(unsigned int i, const Nodes &X, unsigned int load_case) const
+{
+  Nodes f(X.size()), thermal;
+  if (has_body_force(load_case))
+    the_element.body_force(X, body_force(i, load_case), f);
+  if (const auto strain = thermal_strain(i, load_case))
+    {
+      the_element.thermal_force(X, material(i), strain, thermal);
+      for (unsigned int a = 0; a < f.size(); ++a)
+        f[a] += thermal[a];
+    }
+  return f;
+}
+
+template <int dim>
+typename Assembler<dim>::Nodes Assembler<dim>::cell_load_derivative(unsigned int i,
+                                                                    const Nodes &X,
+                                                                    const Nodes &V,
+                                                                    unsigned int load_case) const
+{
+  Nodes f(X.size()), thermal;
+  if (has_body_force(load_case))
+    the_element.body_force_derivative(X, V, body_force(i, load_case), f);
+  if (const auto strain = thermal_strain(i, load_case))
+    {
+      the_element.thermal_force_derivative(X, V, material(i), strain, thermal);
+      for (unsigned int a = 0; a < f.size(); ++a)
+        f[a] += thermal[a];
+    }
+  return f;
+}
+
+template <int dim>
+void Assembler<dim>::add_cell_load_gradient(unsigned int i,
+                                            const Nodes &X,
+                                            unsigned int load_case,
+                                            const Nodes &w,
+                                            double       factor,
+                                            Nodes       &gradient) const
+{
+  if (has_body_force(load_case))
+    the_element.add_body_force_gradient(X, body_force(i, load_case), w, factor, gradient);
+  if (const auto strain = thermal_strain(i, load_case))
+    the_element.add_thermal_force_gradient(X, material(i), strain, w, factor, gradient);
 }
 
 template <int dim>

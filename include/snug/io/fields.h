@@ -48,8 +48,8 @@ public:
   {
     const mesh::BodyMesh<dim>                &mesh;
     const mesh::Tearing                      &tearing;
-    const std::vector<state::BodyModel<dim>> &bodies;   ///< materials and formulations
-    const contact::Position<dim>             &position; ///< of the bodies in the load case
+    const std::vector<state::BodyModel<dim>> &bodies; ///< materials and formulations
+    const state::LoadCase<dim>               &load_case;
   };
 
   /// Files go to the directory @p directory, which must exist. Blocks have the @p body_names.

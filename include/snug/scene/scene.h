@@ -62,9 +62,15 @@ struct Body
   elasticity::Formulation            formulation = elasticity::Formulation::standard;
   /// boundary -> components held at zero: words made of "xyz", "normal"
   std::map<std::string, std::string> supports;
-  LoadParameters                     loads;
+  /// boundary -> 'components = formula' [force / length^3]
+  std::vector<std::pair<std::string, std::string>> springs;
+  /// boundary -> 'x y z at x y z', see placed_force() [force / length]
+  std::vector<std::pair<std::string, std::string>> point_springs;
+  LoadParameters                                   loads;
   /// formulas of the components [force / length^3]; empty: none
   std::vector<std::string> body_force;
+  /// formula of the temperature above that of the unstressed body; empty: none
+  std::string temperature;
 
   std::string section() const { return "Body " + name; }
 

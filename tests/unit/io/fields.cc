@@ -38,13 +38,13 @@ struct Bodies
 
   typename io::FieldOutput<dim>::Sources sources() const
   {
-    return {mesh, tearing, models, position};
+    return {mesh, tearing, models, load_case};
   }
 
   const mesh::BodyMesh<dim>                mesh;
   const mesh::Tearing                      tearing;
   const std::vector<state::BodyModel<dim>> models;
-  contact::Position<dim>                   position;
+  state::LoadCase<dim>                     load_case;
 };
 
 scene::OutputParameters a_file_per_rank()
@@ -77,8 +77,8 @@ void expect_linear_fields(unsigned int degree, const geometry::RigidMotion<dim> 
 {
   const test::ScratchDirectory scratch;
   Bodies<dim>                  bodies(true, degree);
-  bodies.position.bodies[1]      = motion;
-  const auto           materials = test::two_materials();
+  bodies.load_case.position.bodies[1] = motion;
+  const auto           materials      = test::two_materials();
   io::FieldOutput<dim> output(scratch.path, a_file_per_rank(), names);
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
 
