@@ -1,5 +1,4 @@
 #include <snug/app/evaluator.h>
-#include <snug/optimization/linear_limits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -266,16 +265,13 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
                                    ? optimization::Relation::equal
                                    : optimization::Relation::at_most);
     }
-  std::vector<optimization::LinearLimit> limits;
-  for (const auto &[row, bound] : problem.shapes->limits())
-    limits.push_back({row, bound});
   result.maxima = maxima();
   if (!result.maxima.empty())
     {
       result.constraint_scales.resize(result.maxima.back().end, 1.);
       result.relations.resize(result.maxima.back().end, optimization::Relation::term);
     }
-  return optimization::with_limits(std::move(result), limits);
+  return result;
 }
 
 template <int dim>

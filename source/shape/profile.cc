@@ -103,7 +103,7 @@ std::pair<double, bool> beginning(const FacePoints          &face,
 {
   Section centre;
   for (const auto &position : profile.positions)
-    centre += position / profile.positions.size();
+    centre += position / double(profile.positions.size());
   const auto polar = [&](const unsigned int point) {
     const Section lever = profile.positions[point] - centre;
     return std::remainder(std::atan2(lever[1], lever[0]) - start, 2. * dealii::numbers::PI);

@@ -58,7 +58,7 @@ dealii::Point<dim> mean_position(const ShapedFace<dim> &face)
   dealii::Point<dim> result;
   const unsigned int n_nodes = face.surface().n_nodes();
   for (unsigned int node = 0; node < n_nodes; ++node)
-    result += face.positions()[node] / n_nodes;
+    result += face.positions()[node] / double(n_nodes);
   return result;
 }
 
