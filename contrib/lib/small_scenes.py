@@ -123,6 +123,26 @@ def pair_entries(result, _):
               for pair, rows in zip(result.state["pairs"], (16, 25)))]
 
 
+def ground_volume(removed):
+    """The volume of the unit square less that of the ground profile."""
+    return values({"optimization.objective_final": 1 - removed})
+
+
+# The control points of the even splines descend linearly, or the profile is a parabola.
+SLOPE_VOLUME, TOOL_VOLUME = .1 * 73 / 147, 1 / (3 * 5)
+
+
+def shaped_bore(result, _):
+    """Lame's tube of the radii 1.1 and 2 in plane strain, and the derivative of its energy with
+    respect to the inner radius, of which each of six control points has a sixth."""
+    def energy(a, b=2, E=1000, nu=.3):
+        modulus, ratio = E / (1 - nu**2), nu / (1 - nu)
+        return math.pi * .5 * b**2 * ((b**2 + a**2) / (b**2 - a**2) - ratio) / modulus
+    slope = (energy(1.1 + 1e-5) - energy(1.1 - 1e-5)) / 2e-5
+    return [("strain energy", at(result, "state.strain_energy"), energy(1.1)),
+            ("gradient", at(result, GRADIENT), [-slope / 6] * 6)]
+
+
 def rows_of_disc(floor, lid):
     """Return the measure of a disc with 80 nodes on the rim; what comes down on the floor but
     not from the lid is the weight of the polygon."""
@@ -316,6 +336,14 @@ CHECKS = [
           same("optimization.objective_final",
                less=("work.assembled_subdomains", "work.numeric_factorizations")),
           1e-4, ["Shape/Reach=0"]),
+    Check("ground-profile", [], ground_volume(SLOPE_VOLUME), 1e-6),
+    Check("ground-profile", ["Optimization/Algorithm=MMA"], ground_volume(SLOPE_VOLUME), 1e-4),
+    Check("ground-profile", ["Shape/Maximum slope=0", "Shape/Minimum tool radius=5"],
+          ground_volume(TOOL_VOLUME), 1e-6),
+    Check("ground-profile", ["Shape/Maximum slope=0", "Shape/Convex=true"], ground_volume(0),
+          1e-6),
+    Check("ground-profile", ["Shape/Coordinates=projection"], ground_volume(SLOPE_VOLUME), 1e-6),
+    Check("shaped-bore", [], shaped_bore, 1e-3),
     Check("tied-points", [], mirror_images, 1e-4, ["Shape/Symmetry="]),
     Check("tied-points", [], same("optimization.design"), 1e-8, ["Shape/Fixed=0, 4"]),
     Check("tied-points", [], same(more=("optimization.objective_final",)), 0.,

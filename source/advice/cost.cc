@@ -1,6 +1,7 @@
 #include <snug/advice/cost.h>
 #include <snug/base/values.h>
 #include <snug/elasticity/element.h>
+#include <snug/geometry/face_list.h>
 #include <snug/mesh/parts.h>
 #include <snug/mesh/surface.h>
 #include <snug/response/response.h>
@@ -23,7 +24,7 @@ double
 count_nodes(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side)
 {
   std::vector<contact::Boundary> boundaries;
-  for (const auto &face : contact::faces_of_side(side))
+  for (const auto &face : geometry::face_list(side))
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       if (const auto [body, boundary] = scene::split_face(face);
           !boundary.empty() && scene.bodies[b].name == body)

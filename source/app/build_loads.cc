@@ -1,5 +1,6 @@
 #include <snug/app/build_loads.h>
 #include <snug/base/values.h>
+#include <snug/geometry/face_list.h>
 #include <snug/geometry/formula.h>
 #include <snug/geometry/rigid_motion.h>
 #include <snug/scene/placed_force.h>
@@ -262,7 +263,7 @@ contact::Side
 find_side(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side)
 {
   contact::Side result;
-  for (const auto &face : contact::faces_of_side(side))
+  for (const auto &face : geometry::face_list(side))
     result.add(find_face(scene, mesh, face));
   return result;
 }

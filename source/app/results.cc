@@ -1,5 +1,6 @@
 #include <snug/accuracy/adaptation.h>
 #include <snug/app/mesh_summary.h>
+#include <snug/app/offsets.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/io/profile.h>
@@ -85,6 +86,7 @@ void Results<dim>::print_header()
   for (const unsigned int c : positions)
     print_pairs(c, positions.size() > 1);
   warn(unrefined(problem->scene, *problem->mesh));
+  warn(offset_warnings(*problem));
   for (const unsigned int c : positions)
     {
       const auto &contact = solver.contact(c);

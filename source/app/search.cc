@@ -1,6 +1,7 @@
 #include <snug/app/interrupt.h>
 #include <snug/app/search.h>
 #include <snug/geometry/imported_mesh.h>
+#include <snug/optimization/linear_limits.h>
 #include <snug/optimization/starts.h>
 #include <snug/scene/read_scene.h>
 
@@ -160,6 +161,10 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
     evaluator.differentiate(x, evaluation);
     warn_of_weak_contacts(x);
   };
+  std::vector<optimization::LinearLimit> limits;
+  for (const auto &[row, bound] : problem.shapes->limits())
+    limits.push_back({row, bound});
+  design_problem = optimization::with_limits(std::move(design_problem), limits);
   optimization::Hooks hooks;
   hooks.on_iteration = [&](const Iteration &i) { report(i, before); };
   hooks.log          = [&](const std::string &line) { log(line); };

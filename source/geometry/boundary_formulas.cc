@@ -91,6 +91,14 @@ public:
     return this->body->boundary_shape(boundary < n ? boundary : added[boundary - n].of);
   }
 
+  bool is_box_side(const unsigned int boundary) const override
+  {
+    return boundary < names.size() - added.size() && this->body->is_box_side(boundary) &&
+           std::none_of(
+             added.begin(), added.end(),
+             [boundary](const auto &part) { return part.of == boundary; });
+  }
+
 private:
   using Corners = std::vector<dealii::Point<dim>>;
 

@@ -14,6 +14,38 @@ def wrong(title, path, value, names=(), others=()):
     return Case(title, entries, [path.split("/")[-1], value, *names], [])
 
 
+def patch_cases(shape, box, slave, master):
+    """Wrong values of the coordinates and limits of patches."""
+    angle = {**shape, "Shape/Coordinates": "angle"}
+    modes = {**shape, "Shape/Basis": "formula modes", "Shape/Control points": "",
+             "Shape/Direction": ""}
+    return [
+        wrong("chain of two bodies", "Shape/Face", f"{master} + {slave}", ["one body"], shape),
+        wrong("chain with a boundary twice", "Shape/Face", f"{master} + {master}", ["once"],
+              shape),
+        wrong("unknown coordinates", "Shape/Coordinates", "polar", ["arc length"], shape),
+        wrong("axis without a direction", "Shape/Axis", "0, 0, 0", ["not all zero"], angle),
+        wrong("flat face without an axis point", "Shape/Axis", "0, 0, 1", ["Axis point"], angle),
+        wrong("angle of a face that is not round", "Shape/Coordinates", "angle", ["revolution"],
+              shape),
+        wrong("unknown symmetry plane", "Shape/Smooth across symmetry", "roof", ["boundaries"],
+              shape),
+        wrong("symmetry plane off the face", "Shape/Smooth across symmetry", "bottom",
+              ["meets the face"], shape),
+        wrong("slope below zero", "Shape/Maximum slope", "-1", ["positive"], shape),
+        wrong("tool radius of a convex face", "Shape/Minimum tool radius", "1", ["left out"],
+              {**shape, "Shape/Convex": "true"}),
+        wrong("removal along the face", "Shape/Only remove", "true", ["Direction"],
+              {**shape, "Shape/Direction": "1, 0, 0"}),
+        wrong("slope of a box", "Shape/Maximum slope", "1", ["left out"], box),
+        wrong("curvature of straight lines", "Shape/Convex", "true", ["degree 2"], shape),
+        wrong("angle without an axis", "Shape/Coordinates", "projection", ["angle"],
+              {**modes, "Shape/Modes": "0, 0, angle"}),
+        wrong("coordinate of a face for bodies", "Shape/Modes", "0, 0, s",
+              ["formula of x, y, z"], {**modes, "Shape/Face": ""}),
+    ]
+
+
 def input_cases(body, slave, master):
     """Wrong values of entries. @p body and the faces are the scene's."""
     shape = {"Task": "optimize", "Optimization/Objective": "potential energy",
@@ -177,6 +209,7 @@ def input_cases(body, slave, master):
         wrong("filter without a radius", "Shape/Filter radius", "0",
               others={**shape, "Shape/Basis": "node-wise",
                       "Shape/Control points": ""}),
+        *patch_cases(shape, box, slave, master),
         wrong("mirror plane off the middle", "Shape/Symmetry", "x: 0.123",
               ["no image"], shape),
     ]

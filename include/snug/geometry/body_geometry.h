@@ -233,6 +233,9 @@ public:
   /// grid, such as bodies of blocks.
   virtual bool has_grid() const { return false; }
 
+  /// Return whether a boundary is a whole side of a box.
+  virtual bool is_box_side(unsigned int /*boundary*/) const { return false; }
+
   /**
    * Return the coordinates in [0,1]^dim of the frame of the body at @p logical. Coordinate d is 0
    * at boundary 2d and 1 at boundary 2d + 1. The body must have

@@ -46,6 +46,8 @@ public:
 
   bool has_grid() const override { return body->has_grid(); }
 
+  bool is_box_side(unsigned int boundary) const override { return body->is_box_side(boundary); }
+
   Point box_fraction(const Point &logical) const override { return body->box_fraction(logical); }
 
   Point box_position(const Point &fraction) const override { return body->box_position(fraction); }
