@@ -26,7 +26,7 @@ class Piece:
 
         axes = [axis for axis in AXES if axis in rows[0]]
         self.name = rows[0]["face"]
-        self.points = np.transpose([column(axis) - column("d" + axis) for axis in axes])
+        self.points = np.transpose([column("reference_" + axis) for axis in axes])
         self.move, self.drops = column("move"), [column("reference_drop"), column("drop")]
         self.arc_length = column("arc_length") if "arc_length" in rows[0] else None
         normals = np.transpose([column("normal_" + axis) for axis in axes])

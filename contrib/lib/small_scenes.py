@@ -24,6 +24,9 @@ MOMENT = values({"state.responses.tip": 25 / (2 * STIFFNESS), "state.compliance"
 # Stress 0.3 over an area of 1 m^2; a soft part of 1 m, a stiff one of 2 m.
 MESH_REGIONS = values({"state.contact_force.0": .3e6, "state.responses.end": -.3 * (
     1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))})
+# Stress 10 over an area of 4 and a height of 2, between smooth walls
+DECK_BLOCKS = values({"state.contact_force.2": 40,
+                      "state.responses.top": -10 * 2 / guided_modulus(1000, .3)})
 # Of pressure 5 on the box 2 x 1 x 1.
 RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
     "potential": -.025, "work": .05, "strain": .025, "space": 2, "weight": 2 * 7.85e-9,
@@ -267,6 +270,7 @@ CHECKS = [
     Check("two-materials", [], two_materials),
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
+    Check("deck-blocks", [], DECK_BLOCKS),
     Check("boundary-formulas", [], boundary_formulas, 1e-6),
     Check("point-loads", [], point_loads, 1e-6),
     Check("point-loads", ["Decomposition/Subdomains=8", "Body block/Box cells=3, 5, 1"],

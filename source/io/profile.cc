@@ -127,6 +127,30 @@ std::string columns(const std::string &prefix)
   return text;
 }
 
+/// Return, for each node, the maximum distance of the samples of the true surface from the faces of
+/// the mesh at the node; zero where the faces are the true surface.
+template <int dim>
+std::vector<double> deviations(const mesh::Surface<dim>                 &surface,
+                               const typename mesh::Surface<dim>::Field &positions,
+                               const faces::FaceShape<dim>              &shape)
+{
+  std::vector<double> result(surface.n_nodes(), 0.);
+  for (const auto &face : surface.faces())
+    {
+      double of_face = 0.;
+      for (unsigned int k = 0; k < face.samples.size(); ++k)
+        {
+          auto offset = positions[face.samples[k]];
+          for (unsigned int a = 0; a < face.nodes.size(); ++a)
+            offset -= shape.at_sample(k).value[a] * positions[face.nodes[a]];
+          of_face = std::max(of_face, offset.norm());
+        }
+      for (const unsigned int node : face.nodes)
+        result[node] = std::max(result[node], of_face);
+    }
+  return result;
+}
+
 /// Return the maximum of m.x over the nodes of a piece.
 template <int dim, typename Field>
 double highest(const Piece &piece, const dealii::Tensor<1, dim> &m, const Field &positions)
@@ -142,14 +166,16 @@ template <int dim>
 std::string profile_text(const mesh::Surface<dim>                 &surface,
                          const typename mesh::Surface<dim>::Field &positions,
                          const unsigned int                        degree,
-                         const FaceName                           &name)
+                         const FaceName                           &name,
+                         const NodeNumber                         &node_number)
 {
   const auto                 &reference = surface.reference_positions();
   const faces::FaceShape<dim> shape(degree);
-  std::string                 text = std::string("face,piece") + (dim == 2 ? ",arc_length" : "") +
-                     columns<dim>("") + columns<dim>("d") + columns<dim>("normal_") +
-                     ",move,reference_drop,drop\n";
-  const auto pieces = pieces_of(surface);
+  std::string text = std::string("face,piece,node") + (dim == 2 ? ",arc_length" : "") +
+                     columns<dim>("reference_") + columns<dim>("") + columns<dim>("normal_") +
+                     ",move,reference_drop,drop,deviation\n";
+  const auto distances = deviations(surface, positions, shape);
+  const auto pieces    = pieces_of(surface);
   for (unsigned int p = 0; p < pieces.size(); ++p)
     {
       const auto &piece = pieces[p];
@@ -164,14 +190,15 @@ std::string profile_text(const mesh::Surface<dim>                 &surface,
           const auto move = positions[node] - reference[node];
           arc_length += (reference[node] - reference[previous]).norm();
           previous = node;
-          text += name(piece.body, piece.boundary) + ',' + std::to_string(p) +
-                  (dim == 2 ? ',' + exact(arc_length) : "") +
-                  columns<dim>(dealii::Tensor<1, dim>(positions[node])) + columns<dim>(move) +
+          text += name(piece.body, piece.boundary) + ',' + std::to_string(p) + ',' +
+                  std::to_string(node_number(node)) + (dim == 2 ? ',' + exact(arc_length) : "") +
+                  columns<dim>(dealii::Tensor<1, dim>(reference[node])) +
+                  columns<dim>(dealii::Tensor<1, dim>(positions[node])) +
                   columns<dim>(normals[node]) + ',' + exact(move * normals[node]) + ',';
           text += m.norm() == 0. ? ","
                                  : exact(reference_top - m * reference[node]) + ',' +
                                      exact(top - m * positions[node]);
-          text += '\n';
+          text += ',' + exact(distances[node]) + '\n';
         }
     }
   return text;
@@ -180,9 +207,11 @@ std::string profile_text(const mesh::Surface<dim>                 &surface,
 template std::string profile_text(const mesh::Surface<2> &,
                                   const mesh::Surface<2>::Field &,
                                   unsigned int,
-                                  const FaceName &);
+                                  const FaceName &,
+                                  const NodeNumber &);
 template std::string profile_text(const mesh::Surface<3> &,
                                   const mesh::Surface<3>::Field &,
                                   unsigned int,
-                                  const FaceName &);
+                                  const FaceName &,
+                                  const NodeNumber &);
 } // namespace snug::io

@@ -140,6 +140,7 @@ def input_cases(body, slave, master):
               ["formula of x,y,z"], friction),
         wrong("friction that drives", "Contact/Friction coefficient", "-0.1",
               ["0 or above"], friction),
+        wrong("unknown format of a mesh", "Output/Meshes", "msh, vtk", ["among msh, inp"]),
         wrong("friction in a quadratic program", "Output/Export QP", "true",
               ["friction", "quadratic program"], {**friction, "Contact/Friction coefficient": "0.1"}),
         wrong("friction without its solver", "Solver/Method", "SMALSE-M",
@@ -264,6 +265,9 @@ def option_cases():
              ["--set", "Yuong=4711"]),
         Case("wrong value in a setting", {}, ["Task", "optimise"],
              ["--set", "Task=optimise"]),
+        Case("translation of a parameter file", {}, ["--translate", "deck"], ["--translate"]),
+        Case("translation and restart", {}, ["--translate", "--restart"],
+             ["--translate", "--restart"]),
         Case("restart of a state", {}, ["--restart", "optimization"],
              ["--restart", "--set", "Task=state"]),
     ]
