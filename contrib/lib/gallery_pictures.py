@@ -118,7 +118,7 @@ PICTURES = {
     "flat-punch": Picture("flat-punch", {"flat-punch": PRESSURE}, known=flat_punch),
     "floating-block": Picture("floating-block", {"floating-block-wedge": STRESS},
                               ["Body block/Curved faces=bottom: -0.02*x"]),
-    "gear-cycle": Picture("gear-cycle", {"gear-cycle": "mesh-20/" + STRESS}),
+    "gear-cycle": Picture("gear-cycle", {"gear-cycle": "mesh-19/" + STRESS}),
     "gear-pair": Picture("gear-pair", {"gear-pair": STRESS, "gear-pair-pressure": PRESSURE},
                          known=gear_pair),
     "gmsh-pin": Picture("gmsh-pin", {"gmsh-pin": PRESSURE},
