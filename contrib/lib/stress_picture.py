@@ -48,7 +48,9 @@ def place_of_cut(state, side, axis):
     if side is None:
         return middle
     places = side.peaks()[:, axis]
-    return float(np.clip(places[np.argmin(np.abs(places - middle))], low[axis], high[axis]))
+    # of places at both sides of the middle, the first one
+    distances = np.round(np.abs(places - middle) / (high - low)[axis], 6)
+    return float(np.clip(places[np.argmin(distances)], low[axis], high[axis]))
 
 
 def draw_section(axis, drawn, level, ends, units, stretched):
