@@ -6,7 +6,6 @@ import os
 
 import numpy as np
 from matplotlib.tri import LinearTriInterpolator, Triangulation
-from matplotlib.ticker import MaxNLocator
 
 from drawing import CHANGES, COLOURS, Panel, compose, frame, proportions, scales
 from states import PlotError, existing
@@ -62,7 +61,6 @@ def draw_change(axis, places, change, place, label):
 def finish(axis, place, label):
     axis.set_xlabel(place)
     axis.set_ylabel(label)
-    axis.xaxis.set_major_locator(MaxNLocator(6))
     axis.grid(True, alpha=0.3)
 
 
