@@ -50,7 +50,7 @@ public:
     return mesh;
   }
 
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 
 private:
   const geometry::BodyMeshParameters &parameters;
@@ -86,6 +86,17 @@ private:
     return cell.groups.empty() ? "body" : cell.groups.back();
   }
 
+  geometry::ElementPart<dim> part_at(const unsigned int corner, const Element &cell) const
+  {
+    geometry::ElementPart<dim> result;
+    result.element   = &cell - cells.data();
+    result.n_corners = cell.corners.size();
+    result.corner    = corner;
+    const auto &ends = corner_neighbours(cell.shape)[corner];
+    std::copy(ends.begin(), ends.end(), result.towards.begin());
+    return result;
+  }
+
   void add_blocks()
   {
     for (const auto &cell : cells)
@@ -94,10 +105,13 @@ private:
         for (const auto &group : cell.groups)
           index_in(mesh.region_names, group);
         const auto region = index_in(mesh.region_names, region_of(cell));
-        for (const auto &part : parts(cell))
+        const auto blocks = parts(cell);
+        for (unsigned int corner = 0; corner < blocks.size(); ++corner)
           {
-            mesh.blocks.push_back(part);
+            mesh.blocks.push_back(blocks[corner]);
             mesh.regions.push_back(region);
+            if (split)
+              mesh.parts.push_back(part_at(corner, cell));
           }
       }
     if (split)
@@ -233,7 +247,7 @@ private:
                              middles(), facets(), smooth);
     const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes);
     mesh.shapes = shapes.of_boundaries();
-    curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
+    curve_blocks(mesh, {cells, split.get()}, surface, shapes, warnings);
   }
 
   /// Remove points of other regions and middle nodes of quadratic elements, because BlockGeometry
@@ -293,11 +307,12 @@ template <int dim>
 std::shared_ptr<const geometry::BlockMesh<dim>>
 make_blocks(const MeshFile                     &file,
             const geometry::BodyMeshParameters &parameters,
-            std::vector<std::string>           &notes)
+            geometry::ImportedMesh             &result)
 {
   Importer<dim> importer(file, parameters);
   auto          mesh = std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks());
-  notes              = importer.notes;
+  result.notes       = importer.notes;
+  result.warnings    = importer.warnings;
   return mesh;
 }
 } // namespace
@@ -313,9 +328,9 @@ import_mesh(const std::string                  &text,
       auto           result = std::make_shared<geometry::ImportedMesh>();
       result->text_hash     = fnv_hash(text);
       if (dim == 2)
-        result->flat = make_blocks<2>(file, parameters, result->notes);
+        result->flat = make_blocks<2>(file, parameters, *result);
       else
-        result->solid = make_blocks<3>(file, parameters, result->notes);
+        result->solid = make_blocks<3>(file, parameters, *result);
       return result;
     }
   catch (const InputError &error)

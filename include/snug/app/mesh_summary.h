@@ -73,6 +73,9 @@ void print_estimate(RunContext                &context,
                     unsigned int               n_ranks,
                     bool                       stages);
 
+/// Return the warnings about errors of the geometry of mesh files, one line each.
+std::vector<std::string> import_warnings(const scene::Scene &scene);
+
 /// One line for each body whose mesh file was changed on reading.
 void print_import_notes(const scene::Scene &scene, std::ostream &out);
 } // namespace snug::app

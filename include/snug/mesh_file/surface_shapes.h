@@ -11,12 +11,12 @@ namespace snug::mesh_file {
  * these that applies:
  * - facets, if the entry "Surface" requires facets;
  * - a plane, if all nodes lie in a plane;
- * - facets, with a note, if facets meet at more than 15 degrees and are not quadratic;
  * - a sphere, cylinder, cone or torus on which all nodes lie, with a tolerance of 1e-6 of the size
  * of the part or the last digit of the file;
+ * - facets, with a note, if facets meet at more than 15 degrees and are not quadratic;
  * - the shape of the elements, if these are quadratic;
  * - a smooth surface.
- * Where "Surface" requires a smooth surface, the third and the fifth do not apply.
+ * Where "Surface" requires a smooth surface, the fourth and the fifth do not apply.
  */
 template <int dim>
 class SurfaceShapes
@@ -80,12 +80,14 @@ private:
   geometry::SurfaceSample<dim> sample(const std::vector<unsigned int> &facets, bool middles) const;
   Shape                        shape_of(const std::vector<unsigned int> &part);
   bool is_plane(const geometry::SurfaceSample<dim> &sample, double tolerance, Vector &normal) const;
-  double largest_kink(const std::vector<unsigned int> &part) const;
-  double facet_height(const std::vector<unsigned int> &part) const;
-  void   name_boundaries();
-  unsigned int
-  recognized(const geometry::SurfaceSample<dim> &sample, double tolerance, const std::string &name);
-  void move_nodes();
+  double       largest_kink(const std::vector<unsigned int> &part) const;
+  double       facet_height(const std::vector<unsigned int> &part) const;
+  void         name_boundaries();
+  unsigned int recognized(const geometry::SurfaceSample<dim> &sample,
+                          double                              tolerance,
+                          const std::string                  &name,
+                          double                              kink);
+  void         move_nodes();
 };
 
 /// Return a unit of the last written digit of the largest coordinate. Return 0 if the coordinates

@@ -76,13 +76,14 @@ struct Body
  */
 struct Scene
 {
-  std::string                              file; ///< scene file, for messages
-  Task                                     task      = Task::state;
-  unsigned int                             dimension = 3;              ///< dimension of the meshes
-  std::optional<mesh::Idealization::Kind>  model;                      ///< none: by dimension
-  double                                   thickness             = 1.; ///< of plane models [length]
-  std::string                              output_directory      = "output";
-  unsigned int                             degree                = 1;  ///< of the elements, 1 or 2
+  std::string                             file; ///< scene file, for messages
+  Task                                    task      = Task::state;
+  unsigned int                            dimension = 3;         ///< dimension of the meshes
+  std::optional<mesh::Idealization::Kind> model;                 ///< none: by dimension
+  double                                  thickness        = 1.; ///< of plane models [length]
+  std::string                             output_directory = "output";
+  /// degree of the elements, 1 or 2; 0 is auto, which read_scene() replaces
+  unsigned int                             degree                = 0;
   double                                   least_scaled_jacobian = 0.; ///< minimum of all cells
   std::vector<NamedMaterial>               materials;
   std::vector<Body>                        bodies;
