@@ -1,5 +1,7 @@
 #include "files.h"
 
+#include <snug/mesh_file/mesh_file.h>
+
 using namespace snug;
 using namespace snug::test;
 
