@@ -265,6 +265,16 @@ void print_faces(const scene::Scene &scene, std::ostream &out)
       }
 }
 
+std::vector<std::string> import_warnings(const scene::Scene &scene)
+{
+  std::vector<std::string> lines;
+  for (const auto &body : scene.bodies)
+    if (body.mesh.imported)
+      for (const auto &warning : body.mesh.imported->warnings)
+        lines.push_back("body " + body.name + ", " + body.mesh.file + ": " + warning);
+  return lines;
+}
+
 void print_import_notes(const scene::Scene &scene, std::ostream &out)
 {
   for (const auto &body : scene.bodies)

@@ -86,6 +86,7 @@ void Results<dim>::print_header()
   const auto positions = solver.positions();
   for (const unsigned int c : positions)
     print_pairs(c, positions.size() > 1);
+  warn(import_warnings(problem->scene));
   warn(unrefined(problem->scene, *problem->mesh));
   warn(offset_warnings(*problem));
   for (const unsigned int c : positions)

@@ -142,6 +142,8 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   print_import_notes(scene, context.out());
   print_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
+  for (const auto &line : import_warnings(scene))
+    context.warn(line);
   for (const auto &line : unrefined(scene, *mesh))
     context.warn(line);
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));

@@ -53,7 +53,7 @@ public:
     return mesh;
   }
 
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 
 private:
   const geometry::BodyMeshParameters &parameters;
@@ -91,6 +91,17 @@ private:
     return cell.groups.empty() ? "body" : cell.groups.back();
   }
 
+  geometry::ElementPart<dim> part_at(const unsigned int corner, const Element &cell) const
+  {
+    geometry::ElementPart<dim> result;
+    result.element   = &cell - cells.data();
+    result.n_corners = cell.corners.size();
+    result.corner    = corner;
+    const auto &ends = corner_neighbours(cell.shape)[corner];
+    std::copy(ends.begin(), ends.end(), result.towards.begin());
+    return result;
+  }
+
   void add_blocks()
   {
     for (const auto &cell : cells)
@@ -99,10 +110,13 @@ private:
         for (const auto &group : cell.groups)
           index_in(mesh.region_names, group);
         const auto region = index_in(mesh.region_names, region_of(cell));
-        for (const auto &part : parts(cell))
+        const auto blocks = parts(cell);
+        for (unsigned int corner = 0; corner < blocks.size(); ++corner)
           {
-            mesh.blocks.push_back(part);
+            mesh.blocks.push_back(blocks[corner]);
             mesh.regions.push_back(region);
+            if (split)
+              mesh.parts.push_back(part_at(corner, cell));
           }
       }
     if (split)
@@ -194,7 +208,7 @@ private:
                              middles(), facets(), smooth);
     const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes, exact);
     mesh.shapes = shapes.of_boundaries();
-    curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
+    curve_blocks(mesh, {cells, split.get()}, surface, shapes, warnings);
   }
 
   /// Remove points of other regions and middle nodes of quadratic elements, because BlockGeometry
@@ -289,7 +303,8 @@ std::shared_ptr<geometry::ImportedMesh> import_mesh(const MeshFile              
     auto          result = std::make_shared<geometry::ImportedMesh>();
     Importer<dim> importer(file, parameters, exact);
     set_blocks(*result, std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks()));
-    result->notes = importer.notes;
+    result->notes    = importer.notes;
+    result->warnings = importer.warnings;
     return result;
   });
 }

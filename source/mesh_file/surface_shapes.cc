@@ -132,13 +132,13 @@ SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
   const auto  &name      = names[boundary];
   if (is_plane(points, tolerance, result.normal))
     result.kind = Kind::plane;
-  // A boundary of few facets may be round or a polygon. Its nodes lie on a circle in either case.
+  else if ((result.known_index = recognized(points, tolerance, name, kink)) != none)
+    result.kind = Kind::known;
+  // A boundary of few facets may be smooth or a polyhedron.
   else if (kink > 15.)
     add_once(notes, "boundary " + name + " is kept faceted: neighbouring facets meet at up to " +
                       std::to_string(std::lround(kink)) + " degrees; 'Surface = " + name +
                       ": smooth' makes it smooth");
-  else if ((result.known_index = recognized(points, tolerance, name)) != none)
-    result.kind = Kind::known;
   else
     result.kind = quadratic ? Kind::quadratic : Kind::smooth;
   if (result.kind == Kind::quadratic)
@@ -289,7 +289,8 @@ SurfaceShapes<dim>::exact_shape(const std::vector<unsigned int> &part)
 template <int dim>
 unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &points,
                                             const double                        tolerance,
-                                            const std::string                  &name)
+                                            const std::string                  &name,
+                                            const double                        kink)
 {
   // Two parts of one cylinder use the same surface, and not two surfaces that differ by round-off.
   const unsigned int index = matching(points, tolerance);
@@ -304,6 +305,9 @@ unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &
   text << "boundary " << name << " is a " << geometry::describe(surfaces[index])
        << " (maximum deviation " << std::setprecision(1) << points.largest_distance(surfaces[index])
        << ")";
+  if (kink > 15.)
+    text << ", although neighbouring facets meet at up to " << std::lround(kink)
+         << " degrees; 'Surface = " << name << ": facets' keeps the facets";
   add_once(notes, text.str());
   return index;
 }

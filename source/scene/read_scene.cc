@@ -4,6 +4,7 @@
 #include <snug/scene/check.h>
 #include <snug/scene/read_scene.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -197,6 +198,16 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
     }
 }
 
+/// Return whether a mesh file of the body has elements with triangles.
+bool has_triangles(const Body &body)
+{
+  const auto any = [](const auto &mesh) {
+    return mesh && std::any_of(mesh->parts.begin(), mesh->parts.end(),
+                               [](const auto &part) { return part.has_triangles(); });
+  };
+  return body.mesh.imported && (any(body.mesh.imported->flat) || any(body.mesh.imported->solid));
+}
+
 std::string table_cell(std::string text)
 {
   for (auto bar = text.find('|'); bar != std::string::npos; bar = text.find('|', bar + 2))
@@ -245,6 +256,8 @@ Scene read_scene(const SceneSource &source)
   assign(statements, scene);
   complete(scene);
   read_meshes(source, origins, scene);
+  if (scene.degree == 0)
+    scene.degree = std::any_of(scene.bodies.begin(), scene.bodies.end(), has_triangles) ? 2 : 1;
   check(scene, origins);
   return scene;
 }

@@ -8,6 +8,7 @@
 #include <deal.II/base/tensor.h>
 
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -152,6 +153,26 @@ struct MeshPoint
   dealii::Point<dim> unit;
 };
 
+constexpr unsigned int no_element = static_cast<unsigned int>(-1);
+
+/**
+ * The place of a cell in the element of a mesh file of which the cell is a part. Elements are split
+ * into one cell at each corner: vertex 0 of the cell is the corner, axis d of the cell leads to the
+ * middle of the edge towards the corner towards[d], and the last vertex is the middle of the
+ * element. Elements number their corners around the bottom, then around the top.
+ */
+template <int dim>
+struct ElementPart
+{
+  unsigned int                   element   = no_element; ///< index in the body
+  unsigned char                  n_corners = 0;          ///< of the element
+  unsigned char                  corner    = 0;
+  std::array<unsigned char, dim> towards   = {};
+
+  /// Return whether the element is a triangle, a tetrahedron or a prism.
+  bool has_triangles() const { return element != no_element && n_corners != 1u << dim; }
+};
+
 /// Return the centre of a cell in the coordinates of the cell.
 template <int dim>
 dealii::Point<dim> unit_centre()
@@ -202,6 +223,10 @@ public:
 
   /// Return the index of the region of a cell of the coarse mesh.
   virtual unsigned int region(unsigned int /*coarse_cell*/) const { return 0; }
+
+  /// Return the part of an element of a mesh file that a cell of the coarse mesh is. Return
+  /// no_element for cells that no element was split into.
+  virtual ElementPart<dim> element_part(unsigned int /*coarse_cell*/) const { return {}; }
 
   /// Return the surfaces of known shape on which boundary faces lie up to round-off, without
   /// planes.

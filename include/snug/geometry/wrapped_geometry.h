@@ -26,6 +26,11 @@ public:
 
   unsigned int region(unsigned int coarse_cell) const override { return body->region(coarse_cell); }
 
+  ElementPart<dim> element_part(unsigned int coarse_cell) const override
+  {
+    return body->element_part(coarse_cell);
+  }
+
   std::vector<KnownSurface<dim>> known_surfaces() const override { return body->known_surfaces(); }
 
   unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override

@@ -14,9 +14,9 @@ namespace snug::mesh_file {
  * on one;
  * - facets, if the entry "Surface" requires facets;
  * - a plane, if all nodes lie in a plane;
- * - facets, with a note, if facets meet at more than 15 degrees and are not quadratic;
  * - a sphere, cylinder, cone or torus on which all nodes lie, with a tolerance of 1e-6 of the size
  * of the part or the last digit of the file;
+ * - facets, with a note, if facets meet at more than 15 degrees and are not quadratic;
  * - the shape of the elements, if these are quadratic;
  * - a smooth surface.
  * Where "Surface" requires a smooth surface, facets with a note and the shape of the elements do
@@ -95,12 +95,14 @@ private:
   Shape                        exact_shape(const std::vector<unsigned int> &part);
   unsigned int matching(const geometry::SurfaceSample<dim> &sample, double tolerance) const;
   bool is_plane(const geometry::SurfaceSample<dim> &sample, double tolerance, Vector &normal) const;
-  double largest_kink(const std::vector<unsigned int> &part) const;
-  double facet_height(const std::vector<unsigned int> &part) const;
-  void   name_boundaries();
-  unsigned int
-  recognized(const geometry::SurfaceSample<dim> &sample, double tolerance, const std::string &name);
-  void move_nodes();
+  double       largest_kink(const std::vector<unsigned int> &part) const;
+  double       facet_height(const std::vector<unsigned int> &part) const;
+  void         name_boundaries();
+  unsigned int recognized(const geometry::SurfaceSample<dim> &sample,
+                          double                              tolerance,
+                          const std::string                  &name,
+                          double                              kink);
+  void         move_nodes();
 };
 
 /// Return a unit of the last written digit of the largest coordinate. Return 0 if the coordinates

@@ -88,12 +88,13 @@ struct Scene
   unsigned int                            dimension = 3;  ///< dimension of the meshes
   std::optional<mesh::Idealization::Kind> model;          ///< none: by dimension
   double                                  thickness = 1.; ///< of plane models [length]
-  std::vector<std::string>   units; ///< names of the units of length and force; or empty
-  std::string                output_directory      = "output";
-  unsigned int               degree                = 1;  ///< of the elements, 1 or 2
-  double                     least_scaled_jacobian = 0.; ///< minimum of all cells
-  std::vector<NamedMaterial> materials;
-  std::vector<Body>          bodies;
+  std::vector<std::string>                units;          ///< names of length and force
+  std::string                             output_directory = "output";
+  /// degree of the elements, 1 or 2; 0 is auto, which read_scene() replaces
+  unsigned int                             degree                = 0;
+  double                                   least_scaled_jacobian = 0.; ///< minimum of all cells
+  std::vector<NamedMaterial>               materials;
+  std::vector<Body>                        bodies;
   std::vector<contact::ObstacleParameters> obstacles;
   std::vector<double>                      gravity; ///< [length / time^2]; empty: none
   /// empty: one load case, with the loads of the bodies alone
