@@ -212,6 +212,7 @@ CHECKS = [
     Check("two-materials", [], two_materials),
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
+    Check("cad-block", [], named_boundaries),
     Check("boundary-formulas", [], boundary_formulas, 1e-6),
     Check("lame-cylinder", [], lame_cylinder, 3e-3),
     Check("lame-cylinder", ["Obstacle pin/Shape=cylinder", "Obstacle pin/Formula="],
