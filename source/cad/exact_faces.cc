@@ -1,5 +1,6 @@
 #include <snug/cad/faces.h>
 
+#include <Adaptor3d_Curve.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepTools.hxx>
@@ -111,6 +112,31 @@ geometry::KnownSurface<3> cone_of(const BRepAdaptor_Surface &adaptor)
   return known;
 }
 
+/// Return the torus of a circle in a plane through an axis that turns about the axis, or nothing.
+std::optional<geometry::KnownSurface<3>> revolved_circle(const BRepAdaptor_Surface &adaptor)
+{
+  const auto curve = adaptor.BasisCurve();
+  if (curve->GetType() != GeomAbs_Circle)
+    return {};
+  const gp_Ax1              axis   = adaptor.AxeOfRevolution();
+  const gp_Circ             circle = curve->Circle();
+  const auto                centre = point_of<3>(circle.Location());
+  const auto                normal = point_of<3>(circle.Axis().Direction());
+  geometry::KnownSurface<3> known;
+  known.kind   = geometry::KnownSurface<3>::Kind::torus;
+  known.axis   = point_of<3>(axis.Direction());
+  known.centre = point_of<3>(axis.Location());
+  known.centre += ((centre - known.centre) * known.axis) * known.axis;
+  known.radius          = centre.distance(known.centre);
+  known.tube            = circle.Radius();
+  const double rounding = 1e-12;
+  if (std::abs(normal * known.axis) > rounding ||
+      std::abs((centre - known.centre) * normal) > rounding * known.tube ||
+      known.tube >= known.radius)
+    return {};
+  return known;
+}
+
 /// Return the sphere, cylinder, cone or torus of a face, or nothing. The tube of a torus must not
 /// reach the axis.
 std::optional<geometry::KnownSurface<3>> known_surface(const BRepAdaptor_Surface &adaptor)
@@ -134,6 +160,8 @@ std::optional<geometry::KnownSurface<3>> known_surface(const BRepAdaptor_Surface
         return known;
       case GeomAbs_Cone:
         return cone_of(adaptor);
+      case GeomAbs_SurfaceOfRevolution:
+        return revolved_circle(adaptor);
       case GeomAbs_Torus:
         set(Kind::torus, adaptor.Torus());
         known.radius = adaptor.Torus().MajorRadius();

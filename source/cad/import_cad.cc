@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Standard_Failure.hxx>
+
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
@@ -33,6 +35,21 @@ struct MeshedPart
     archive & brep & mesh & names & of_group;
   }
 };
+
+/// Run @p work with errors of OpenCASCADE, which are no std::exception, as errors of the file.
+template <typename Work>
+auto guarded(const geometry::BodyMeshParameters &parameters, const Work &work)
+{
+  try
+    {
+      return work();
+    }
+  catch (const Standard_Failure &failure)
+    {
+      throw bad_entry("File", parameters.file,
+                      std::string("OpenCASCADE fails: ") + failure.GetMessageString());
+    }
+}
 
 std::string contents(const std::string &path)
 {
@@ -92,7 +109,8 @@ MeshedPart meshed(const geometry::BodyMeshParameters &parameters,
                         size_sources(part, boundaries, parameters.face_sizes,
                                      parameters.element_size),
                         parameters.element_size, parameters.size_growth);
-  std::filesystem::create_directories(std::filesystem::path(stem).parent_path());
+  std::error_code unused; // writing fails if there is no directory
+  std::filesystem::create_directories(std::filesystem::path(stem).parent_path(), unused);
   MeshedPart result;
   result.brep  = to_brep(part.shape);
   result.names = part.names;
@@ -144,13 +162,15 @@ import_cad(const geometry::BodyMeshParameters &parameters,
   MeshedPart result;
   throw_collectively(communicator, [&]() {
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      result = meshed(parameters, dim, directory + "/" + name);
+      result =
+        guarded(parameters, [&]() { return meshed(parameters, dim, directory + "/" + name); });
   });
   result = dealii::Utilities::MPI::broadcast(communicator, result, 0);
   // All ranks read the same text, so that their shapes agree to the last digit.
-  const Part part{from_brep(result.brep), dim, result.names};
-  if (dim == 2)
-    return blocks_of<2>(result, part, parameters);
-  return blocks_of<3>(result, part, parameters);
+  return guarded(parameters, [&]() {
+    const Part part{from_brep(result.brep), dim, result.names};
+    return dim == 2 ? blocks_of<2>(result, part, parameters)
+                    : blocks_of<3>(result, part, parameters);
+  });
 }
 } // namespace snug::cad

@@ -15,7 +15,6 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Reader.hxx>
-#include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepShape_TopologicalRepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -251,17 +250,9 @@ double Part::size() const
 
 Part read_part(const std::string &path, const unsigned int solid, const unsigned int dim)
 {
-  try
-    {
-      // Messages of OpenCASCADE would go to the log.
-      Message::DefaultMessenger()->ChangePrinters().Clear();
-      return part_of(read_file(path, dim == 2 ? TopAbs_EDGE : TopAbs_FACE), path, solid, dim);
-    }
-  catch (const Standard_Failure &failure)
-    {
-      throw file_error(path,
-                       std::string("OpenCASCADE cannot read it: ") + failure.GetMessageString());
-    }
+  // Messages of OpenCASCADE would go to the log.
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  return part_of(read_file(path, dim == 2 ? TopAbs_EDGE : TopAbs_FACE), path, solid, dim);
 }
 
 std::string to_brep(const TopoDS_Shape &shape)
