@@ -248,7 +248,8 @@ def curve_panels(curves, name, heads, label, units, known, planes):
         cuts = [f"{when} at {cut}" for when, cut in zip(("before", "after"), cuts)]
     title = ", ".join(filter(None, (name, *dict.fromkeys(cuts))))
     peaks = [curve.values.max() for curve in curves]
-    panels = [Panel(2., title, lambda axis: draw_curves(axis, curves, heads, label, units, known))]
+    panels = [Panel(1.5 if planes else 2., title, lambda axis: draw_curves(
+        axis, curves, heads, label, units, known))]
     if len(curves) > 1 and 0. < peaks[-1] < 0.5 * max(peaks):
         panels.append(Panel(2.2, "after, on its own scale", lambda axis: draw_curves(
             axis, curves[-1:], heads[-1:], label, units, known, "C1")))

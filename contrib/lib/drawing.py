@@ -110,7 +110,10 @@ def compose(title, groups, directory, name):
             if panel.scale:
                 bar = figure.add_axes([(left + drawn + .1) / wide, y / total, .14 / wide,
                                        height / total])
-                figure.colorbar(image, cax=bar, ticks=MaxNLocator(6), label=panel.scale)
+                figure.colorbar(image, cax=bar, ticks=MaxNLocator(int(np.clip(height / .4, 1, 6))))
+                low = height < .08 * len(panel.scale)
+                bar.set_ylabel(panel.scale.replace(" [", "\n[") if low else panel.scale,
+                               fontsize=np.clip(8. * height, 6., 10.))
             x += width
         below -= of_row
     save(figure, directory, name)

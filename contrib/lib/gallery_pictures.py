@@ -176,6 +176,7 @@ def draw(name):
             shutil.copyfile(directory / source, target)
             print(target.relative_to(ROOT), f"{target.stat().st_size / 1024:.0f} kB", flush=True)
         return True
-    done = run(f"prm/{picture.scene}.prm", picture.entries, inspect=inspect)
+    # The comment of each of these scenes names its units.
+    done = run(f"prm/{picture.scene}.prm", ["Units=mm, N", *picture.entries], inspect=inspect)
     if not done.result:
         raise RunError(f"{picture.scene}: status {done.status}, {done.message}")

@@ -4,6 +4,7 @@
 import os
 import pathlib
 import sys
+import tempfile
 import types
 import unittest
 
@@ -122,6 +123,26 @@ class Plot(unittest.TestCase):
         self.assertEqual(drawing.scales([10., 0.]), [10., 10.])  # nothing to show
         self.assertEqual(drawing.scales([10.]), [10.])
         self.assertEqual(drawing.scales([10., 2.], 20.), [20., 20.])
+
+    def test_labels_name_the_units_of_the_summary(self):
+        units = drawing.Units({"units": {"length": "mm", "force": "N", "stress": "MPa"}})
+        self.assertEqual((units.place("x"), units.label("pressure", units.stress)),
+                         ("x [mm]", "pressure [MPa]"))
+        units = drawing.Units({})
+        self.assertEqual((units.place("x"), units.label("pressure", units.stress)),
+                         ("x", "pressure [force/length²]"))
+
+    def test_known_answers_are_read_with_their_name(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            file.write("x,Hertz\n-1,0\n0,2.5\n1,0\n")
+            file.flush()
+            known = plot.read_known(file.name)
+        self.assertEqual(known.name, "Hertz")
+        self.assertTrue(np.allclose([known.places, known.values], [[-1., 0., 1.], [0., 2.5, 0.]]))
+
+    def test_numbers_have_four_digits_and_no_exponent(self):
+        self.assertEqual([drawing.number_text(value) for value in (17764., 1592.8, .0345678, 0.)],
+                         ["17760", "1593", "0.03457", "0"])
 
     def test_panels_share_rows_while_they_are_high_enough(self):
         panel = drawing.Panel(1., "", None)
