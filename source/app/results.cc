@@ -353,6 +353,7 @@ void Results<dim>::export_shape(const std::vector<double> &design)
                        }));
     io::write_control_points(path("control-points.csv"), points);
   });
+  export_profile(design);
 }
 
 /// Return the numbers of rows. Rows of gluing and supports, which all positions share, count once.
