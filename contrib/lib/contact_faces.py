@@ -3,10 +3,9 @@
 import collections
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
-from drawing import (Panel, compose, frame, mark, outline_window, paint, place_text, proportions,
-                     scales, titles)
+from drawing import (Panel, compose, frame, mark, number_text, outline_window, paint, place_text,
+                     proportions, scales, titles)
 from sections import cells_at, lists_of
 from states import array_of, cells_of, joined, magnitude_of, points_of
 from views import AXES, Window, along_axis
@@ -67,7 +66,7 @@ class Side:
 
     def peaks(self):
         """Return where the pressure is largest, or as good as that."""
-        high = self.values[self.nodes] >= 0.995 * self.peak()
+        high = self.values[self.nodes] >= 0.999 * self.peak()
         return self.points[self.nodes[high]]
 
     def window(self):
@@ -200,11 +199,11 @@ def face_group(side, head, end, label, units, chosen):
     whole = places.min(axis=0), places.max(axis=0)
     plane = [k for k in range(3) if k != normal]
     parts = [whole] + ([] if chosen else side.window().levels(plane, *whole))
-    text = f"× maximum {side.peak():.4g} at " + place_text(
+    text = f"× maximum {number_text(side.peak())} at " + place_text(
         AXES, side.highest(), np.ptp(side.points[side.nodes], axis=0).max())
     panels = []
     for level, part in enumerate(parts):
-        ratio, stretch = proportions(*part)
+        ratio, stretch = proportions(*part, 4. if level else 10.)
         title = f"{head}\n{text}".strip() if level == 0 else \
             "at the contact" if level == len(parts) - 1 else "around the contact"
         if abs(stretch - 1.) > .05:
@@ -258,13 +257,15 @@ def curve_panels(curves, name, heads, label, units, known, planes):
 
 def draw_curves(axis, curves, heads, label, units, known, colour=None):
     low, high = limits_of(curves)
+    has_legend = known or any(heads)
     for number, (curve, head) in enumerate(zip(curves, heads)):
         of_curve = colour or f"C{number}"
-        axis.plot(curve.places, curve.values, ".-", markersize=4, color=of_curve, label=head)
+        axis.plot(curve.places, curve.values, ".-", markersize=4, color=of_curve,
+                  label=head or "Snug")
         top = np.argmax(curve.values)
         axis.plot(curve.places[top], curve.values[top], "x", color=of_curve, markersize=8.,
                   markeredgewidth=2.)
-        axis.annotate(f"{curve.values[top]:.4g}", (curve.places[top], curve.values[top]), (0., 6.),
+        axis.annotate(number_text(curve.values[top]), (curve.places[top], curve.values[top]), (0., 6.),
                       textcoords="offset points", color=of_curve, ha="center")
     margin = .04 * (high - low)
     axis.set_xlim(low - margin, high + margin)
@@ -273,10 +274,9 @@ def draw_curves(axis, curves, heads, label, units, known, colour=None):
         axis.plot(known.places, known.values, "k--", linewidth=1.2, label=known.name)
         inside = known.values[(known.places >= low) & (known.places <= high)]
         largest = max(largest, min(inside.max(initial=0.), 1.3 * largest))
-    axis.set_ylim(0., 1.18 * largest or 1.)
+    axis.set_ylim(0., (1.35 if has_legend else 1.18) * largest or 1.)
     axis.set_xlabel(units.place(curves[0].name))
     axis.set_ylabel(label)
-    axis.xaxis.set_major_locator(MaxNLocator(7))
     axis.grid(True, alpha=0.3)
-    if known or any(heads):
-        axis.legend()
+    if has_legend:
+        axis.legend(ncols=2, loc="upper right")

@@ -14,9 +14,10 @@ import numpy as np
 from PIL import Image
 
 COLOURS, CHANGES = "viridis", "RdBu_r"
-WIDTH, LOW, HEIGHT = 11., 2.6, 3.6  # of a picture; of panels, at least and at most [inches]
+WIDTH, LOW, HEIGHT = 11., 2.2, 3.6  # of a picture; of panels, at least and at most [inches]
 LEFT, RIGHT, TOP, BOTTOM, SCALE = .88, .18, .3, .5, .95  # margins of a panel
-plt.rcParams.update({"font.size": 10., "axes.titlesize": 10., "legend.fontsize": 9.})
+plt.rcParams.update({"font.size": 10., "axes.titlesize": 10., "legend.fontsize": 9.,
+                     "axes.formatter.limits": (-3, 5), "axes.formatter.use_mathtext": True})
 
 # A panel: its width over its height, a title of some lines, draw(axis), which returns an image
 # if there is one, and the label of the colour bar of the image, or "".
@@ -54,10 +55,11 @@ def scales(peaks, given=0.):
 
 
 def size_of(panel, height):
-    """Return the width and height of a panel with its margins, and the height of its title."""
-    title = .2 * len(panel.title.splitlines()) + .1
-    scale = SCALE if panel.scale else 0.
-    return (LEFT + RIGHT + scale + height * panel.ratio, TOP / 3 + title + BOTTOM + height)
+    """Return the width and height of a panel with its margins."""
+    lines = panel.title.splitlines()
+    widths = [height * panel.ratio] + [.083 * len(line) - .5 for line in lines]
+    return (LEFT + max(widths) + (SCALE if panel.scale else 0.) + RIGHT,
+            TOP / 3 + .2 * len(lines) + .1 + BOTTOM + height)
 
 
 def arrange(groups):
@@ -76,8 +78,10 @@ def arrange(groups):
 
 def height_of(row):
     """Return the height of the panels of a row, so that the row fits into the width."""
-    fixed = sum(size_of(panel, 0.)[0] for panel in row)
-    return min(HEIGHT, (WIDTH - fixed) / sum(panel.ratio for panel in row))
+    height = HEIGHT
+    while height > .5 and sum(size_of(panel, height)[0] for panel in row) > WIDTH:
+        height *= .98
+    return height
 
 
 def compose(title, groups, directory, name):
@@ -96,15 +100,18 @@ def compose(title, groups, directory, name):
         x = (wide - sum(size_of(panel, height)[0] for panel in row)) / 2.
         y = below - of_row + BOTTOM
         for panel in row:
-            axis = figure.add_axes([(x + LEFT) / wide, y / total,
-                                    height * panel.ratio / wide, height / total])
+            width, drawn = size_of(panel, height)[0], height * panel.ratio
+            left = x + LEFT + (width - LEFT - RIGHT - (SCALE if panel.scale else 0.) - drawn) / 2.
+            axis = figure.add_axes([left / wide, y / total, drawn / wide, height / total])
             axis.set_title(panel.title)
             image = panel.draw(axis)
+            axis.xaxis.set_major_locator(MaxNLocator(int(np.clip(drawn / .6, 1, 7))))
+            axis.yaxis.set_major_locator(MaxNLocator(int(np.clip(height / .5, 1, 6))))
             if panel.scale:
-                place = (x + LEFT + height * panel.ratio + .1) / wide
-                bar = figure.add_axes([place, y / total, .14 / wide, height / total])
+                bar = figure.add_axes([(left + drawn + .1) / wide, y / total, .14 / wide,
+                                       height / total])
                 figure.colorbar(image, cax=bar, ticks=MaxNLocator(6), label=panel.scale)
-            x += size_of(panel, height)[0]
+            x += width
         below -= of_row
     save(figure, directory, name)
 
@@ -151,18 +158,16 @@ def frame(axis, view, low, high, units, stretched=False):
         return
     axis.set_xlabel(units.place(view.names[0]))
     axis.set_ylabel(units.place(view.names[1]), labelpad=1.)
-    axis.xaxis.set_major_locator(MaxNLocator(5))
-    axis.yaxis.set_major_locator(MaxNLocator(6))
     if view.flipped:
         axis.invert_xaxis()
 
 
-def proportions(low, high):
+def proportions(low, high, longest=4.):
     """Return the ratio of the panel of a window and how many times it is stretched upwards, 1 if
-    it is not."""
+    it is not, because it is not longer than this number of its widths."""
     width, height = np.maximum(high - low, 1e-300)
     ratio = width / height
-    if 0.3 <= ratio <= 4.:
+    if 1. / longest <= ratio <= longest:
         return ratio, 1.
     shown = min(max(ratio, 0.5), 2.5)
     return shown, ratio / shown
@@ -184,6 +189,13 @@ def outline_window(axis, view, window, plane, place):
     corners[:, across] = place
     axis.plot(*view.project(corners).T, color="white", linewidth=2., zorder=90.)
     axis.plot(*view.project(corners).T, color="black", linewidth=1., linestyle="--", zorder=91.)
+
+
+def number_text(value):
+    """Return a number with four digits, without an exponent unless it is long."""
+    if 1e4 <= abs(value) < 1e7:
+        return f"{round(value, 3 - math.floor(math.log10(abs(value)))):.0f}"
+    return f"{value:.4g}"
 
 
 def place_text(names, point, extent):

@@ -1,13 +1,14 @@
 """The pictures of doc/gallery that contrib/plot draws, with the known answers of their pressures."""
 
 import collections
+import json
 import math
 import pathlib
 import shutil
 import subprocess
 
-from known_answers import EQUAL, PERFECT_FIT, moduli
-from runs import ROOT, RunError, run
+from known_answers import EQUAL, HIP_SECTION, PERFECT_FIT, moduli
+from runs import ROOT, RunError, run, solve
 
 # Names of pictures in doc/images with the pictures that contrib/plot draws of a scene with
 # entries; options of contrib/plot; known(summary): the name of a known answer, its places and
@@ -87,6 +88,12 @@ def pin_in_hole(summary):
     return "Persson", places, [pressure(angle) for angle in places]
 
 
+def hip_joint(_):
+    """Return the pressure of the joint as a section on a fine mesh."""
+    points = sorted((p["x"], p["pressure"]) for p in solve("prm/hip-joint.prm", HIP_SECTION).points)
+    return ("section", *zip(*points))
+
+
 def even(value, last, name="even pressure"):
     return lambda _: (name, [0., last], [value, value])
 
@@ -111,7 +118,7 @@ PICTURES = {
     "flat-punch": Picture("flat-punch", {"flat-punch": PRESSURE}, known=flat_punch),
     "floating-block": Picture("floating-block", {"floating-block-wedge": STRESS},
                               ["Body block/Curved faces=bottom: -0.02*x"]),
-    "gear-cycle": Picture("gear-cycle", {"gear-cycle": "mesh-20/" + STRESS}),
+    "gear-cycle": Picture("gear-cycle", {"gear-cycle": "mesh-19/" + STRESS}),
     "gear-pair": Picture("gear-pair", {"gear-pair": STRESS, "gear-pair-pressure": PRESSURE},
                          known=gear_pair),
     "gmsh-pin": Picture("gmsh-pin", {"gmsh-pin": PRESSURE},
@@ -122,7 +129,7 @@ PICTURES = {
                                            "hertz-3d-16-von-mises": STRESS,
                                            "hertz-3d-16-shape": SHAPE,
                                            "hertz-3d-16-convergence": CONVERGENCE}, known=MEAN),
-    "hip-joint": Picture("hip-joint", {"hip-joint": PRESSURE}),
+    "hip-joint": Picture("hip-joint", {"hip-joint": PRESSURE}, known=hip_joint),
     "incline": Picture("incline", {"incline": STRESS}),
     "incompressible": Picture("incompressible", {"incompressible": PRESSURE}),
     "leaf-spring": Picture("leaf-spring", {"leaf-spring": STRESS}),
@@ -157,7 +164,8 @@ def draw(name):
     def inspect(directory, _):
         words = [str(ROOT / "contrib/plot"), *picture.options]
         if picture.known:
-            title, places, values = picture.known(summary_of(directory))
+            title, places, values = picture.known(
+                json.loads((directory / "summary.json").read_text(encoding="utf-8")))
             known = directory / "known.csv"
             known.write_text(f"place,{title}\n" + "".join(
                 f"{place!r},{value!r}\n" for place, value in zip(places, values)))

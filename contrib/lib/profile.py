@@ -6,7 +6,6 @@ import os
 
 import numpy as np
 from matplotlib.tri import LinearTriInterpolator, Triangulation
-from matplotlib.ticker import MaxNLocator
 
 from drawing import CHANGES, COLOURS, Panel, compose, frame, proportions, scales
 from states import PlotError, existing
@@ -26,7 +25,7 @@ class Piece:
 
         axes = [axis for axis in AXES if axis in rows[0]]
         self.name = rows[0]["face"]
-        self.points = np.transpose([column(axis) - column("d" + axis) for axis in axes])
+        self.points = np.transpose([column("reference_" + axis) for axis in axes])
         self.move, self.drops = column("move"), [column("reference_drop"), column("drop")]
         self.arc_length = column("arc_length") if "arc_length" in rows[0] else None
         normals = np.transpose([column("normal_" + axis) for axis in axes])
@@ -62,7 +61,6 @@ def draw_change(axis, places, change, place, label):
 def finish(axis, place, label):
     axis.set_xlabel(place)
     axis.set_ylabel(label)
-    axis.xaxis.set_major_locator(MaxNLocator(6))
     axis.grid(True, alpha=0.3)
 
 

@@ -24,6 +24,9 @@ MOMENT = values({"state.responses.tip": 25 / (2 * STIFFNESS), "state.compliance"
 # Stress 0.3 over an area of 1 m^2; a soft part of 1 m, a stiff one of 2 m.
 MESH_REGIONS = values({"state.contact_force.0": .3e6, "state.responses.end": -.3 * (
     1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))})
+# Stress 10 over an area of 4 and a height of 2, between smooth walls
+DECK_BLOCKS = values({"state.contact_force.2": 40,
+                      "state.responses.top": -10 * 2 / guided_modulus(1000, .3)})
 # Of pressure 5 on the box 2 x 1 x 1.
 RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
     "potential": -.025, "work": .05, "strain": .025, "space": 2, "weight": 2 * 7.85e-9,
@@ -55,21 +58,31 @@ def two_materials(result, _):
             for case, energy in zip(result.summary["load_cases"], (hanging, pulled))]
 
 
-def point_loads(result, _):
-    """The plane w = a + b x + c y balances the springs and the loads."""
-    springs = [(100, 0, 0), (150, 3, 0), (200, 0, 2), (300, 3, 2)]
+def plane_on(springs):
+    """Return the measure of the plane w = a + b x + c y that balances springs (k, x, y) and the
+    loads."""
     loads = [(10, .9, .7), (2 * math.hypot(2.6, 1.6), 1.5, 1.1), (3 * 2, 3, 1)]
-    rows = [[sum(k * p[i] * p[j] for k, *p in [(k, 1, x, y) for k, x, y in springs])
-             for j in range(3)] + [-sum(F * p[i] for F, *p in [(F, 1, x, y) for F, x, y in loads])]
+
+    def moments(items, i, j):
+        return sum(size * (1, x, y)[i] * (1, x, y)[j] for size, x, y in items)
+
+    rows = [[*(moments(springs, i, j) for j in range(3)), -moments(loads, i, 0)]
             for i in range(3)]
     for i in range(3):  # Gauss-Jordan
         rows[i] = [value / rows[i][i] for value in rows[i]]
         for j in range(3):
             if j != i:
                 rows[j] = [a - rows[j][i] * b for a, b in zip(rows[j], rows[i])]
-    a, b, c = (row[3] for row in rows)
-    return [("corner", result.state["responses"]["corner"], a + 3 * b + 2 * c),
-            ("reaction", result.state["reactions"][0]["force"][2], sum(F for F, *_ in loads))]
+    corner = rows[0][3] + 3 * rows[1][3] + 2 * rows[2][3]
+    return lambda result, _: [
+        ("corner", result.state["responses"]["corner"], corner),
+        ("reaction", result.state["reactions"][0]["force"][2], sum(F for F, *_ in loads))]
+
+
+# Four points, and 50 per area with the moments of Gauss points.
+POINT_SPRINGS = plane_on([(100, 0, 0), (150, 3, 0), (200, 0, 2), (300, 3, 2)])
+WINKLER = plane_on([(50 * 6 / 4, 1.5 + x * 3 / math.sqrt(12), 1 + y * 2 / math.sqrt(12))
+                    for x in (-1, 1) for y in (-1, 1)])
 
 
 def heated_tube(result, _):
@@ -267,10 +280,13 @@ CHECKS = [
     Check("two-materials", [], two_materials),
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
+    Check("deck-blocks", [], DECK_BLOCKS),
     Check("boundary-formulas", [], boundary_formulas, 1e-6),
-    Check("point-loads", [], point_loads, 1e-6),
+    Check("point-loads", [], POINT_SPRINGS, 1e-6),
     Check("point-loads", ["Decomposition/Subdomains=8", "Body block/Box cells=3, 5, 1"],
-          point_loads, 1e-6),
+          POINT_SPRINGS, 1e-6),
+    Check("point-loads", ["Body block/Springs=bottom: xyz = 50", "Body block/Point springs="],
+          WINKLER, 1e-6),
     Check("heated-bar", [], HEATED_BAR, 1e-9),
     Check("heated-tube", [], heated_tube, 1e-5),
     Check("lame-cylinder", [], lame_cylinder, 3e-3),

@@ -10,7 +10,7 @@ import vtkmodules.vtkCommonCore as vtk_base
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
-from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 # The time, and the grids of {"bodies": {NAME: grid}, "boundaries": {BODY.NAME: grid}}.
 State = collections.namedtuple("State", "time bodies boundaries")
@@ -41,12 +41,6 @@ def read_states(directory, name):
     return [State(time, *read_blocks(os.path.join(directory, file))) for time, file in shown]
 
 
-def children(block):
-    """Return the named children of a block."""
-    return {block.GetMetaData(k).Get(block.NAME()): block.GetBlock(k)
-            for k in range(block.GetNumberOfBlocks())}
-
-
 def joined(grids):
     """Return one grid with all points and cells."""
     append = vtkAppendFilter()
@@ -58,25 +52,28 @@ def joined(grids):
     return append.GetOutput()
 
 
-def read_blocks(path):
-    """Return the grids of the bodies and of the boundaries of a .vtm file by name."""
-    reader = vtkXMLMultiBlockDataReader()
+def read_grid(path):
+    reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(existing(path))
     vtk_base.vtkObject.GlobalWarningDisplayOff()
     reader.Update()
-    damaged = PlotError(f"file '{path}' or one of its pieces is damaged")
-    groups = children(reader.GetOutput())
-    if not set(groups) <= {"bodies", "boundaries"}:
-        raise damaged
+    if not reader.GetOutput().GetPointData().HasArray("body"):
+        raise PlotError(f"file '{path}' is damaged")
+    return reader.GetOutput()
+
+
+def read_blocks(path):
+    """Return the grids of the bodies and of the boundaries of a .vtm file by name. VTK's reader of
+    such files takes a damaged piece for the piece before it."""
     result = {"bodies": {}, "boundaries": {}}
-    for group, block in groups.items():
-        for name, parts in children(block).items():
-            pieces = [parts.GetPiece(k) for k in range(parts.GetNumberOfPieces())]
-            if any(piece is None or not piece.GetPointData().HasArray("body")
-                   for piece in pieces):
-                raise damaged
-            if pieces:
-                result[group][name] = joined(pieces)
+    try:
+        for group in xml.etree.ElementTree.parse(existing(path)).getroot()[0]:
+            for block in group:
+                files = [os.path.join(os.path.dirname(path), entry.get("file")) for entry in block]
+                if files:
+                    result[group.get("name")][block.get("name")] = joined(map(read_grid, files))
+    except (xml.etree.ElementTree.ParseError, IndexError, KeyError, TypeError):
+        raise PlotError(f"file '{path}' is damaged") from None
     return result["bodies"], result["boundaries"]
 
 

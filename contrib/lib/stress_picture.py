@@ -3,8 +3,8 @@
 from matplotlib.collections import LineCollection
 import numpy as np
 
-from drawing import (Panel, compose, frame, mark, outline_window, paint, place_text, proportions,
-                     scales, titles)
+from drawing import (Panel, compose, frame, mark, number_text, outline_window, paint, place_text,
+                     proportions, scales, titles)
 from sections import bounds_of, halves, section
 from views import AXES, along_axis, oblique
 
@@ -48,7 +48,9 @@ def place_of_cut(state, side, axis):
     if side is None:
         return middle
     places = side.peaks()[:, axis]
-    return float(np.clip(places[np.argmin(np.abs(places - middle))], low[axis], high[axis]))
+    # of places at both sides of the middle, the first one
+    distances = np.round(np.abs(places - middle) / (high - low)[axis], 6)
+    return float(np.clip(places[np.argmin(distances)], low[axis], high[axis]))
 
 
 def draw_section(axis, drawn, level, ends, units, stretched):
@@ -94,7 +96,7 @@ def half_panel(drawn, title, ends, units, chosen):
 
 
 def section_panel(drawn, level, title, ends, units, scale):
-    ratio, stretch = proportions(*[drawn.whole, *drawn.windows][level])
+    ratio, stretch = proportions(*[drawn.whole, *drawn.windows][level], 4. if level else 10.)
     if abs(stretch - 1.) > .05:
         title += f", stretched {max(stretch, 1 / stretch):.3g} times"
     return Panel(ratio, title, lambda panel: draw_section(
@@ -105,7 +107,7 @@ def group_of(drawn, title, end, units, chosen):
     """Return the panels of one state: the whole, and the section or its parts at the contact."""
     ends, names = (0., end), [AXES[k] for k in drawn.coordinates]
     extent = np.max(drawn.whole[1] - drawn.whole[0])
-    peak = f"× maximum {drawn.peak:.4g} at " + place_text(
+    peak = f"× maximum {number_text(drawn.peak)} at " + place_text(
         names, drawn.highest[drawn.coordinates], extent)
     title = f"{title}\n{peak}".strip()
     if drawn.axis is None:

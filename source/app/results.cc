@@ -3,6 +3,7 @@
 #include <snug/app/offsets.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/io/mesh_export.h>
 #include <snug/io/profile.h>
 #include <snug/io/qp_export.h>
 #include <snug/io/shape_export.h>
@@ -337,8 +338,10 @@ void Results<dim>::export_shape(const std::vector<double> &design)
     return;
   const RunContext::Timer  timer(problem->context, "output");
   const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
-  const auto               at_faces = faces.gather(problem->positions(design));
-  const auto               points   = problem->shapes->control_points(design);
+  const auto               positions = problem->positions(design);
+  const auto               at_faces  = faces.gather(positions);
+  const auto               whole     = io::gather_mesh<dim>(*problem->mesh, positions);
+  const auto               points    = problem->shapes->control_points(design);
   throw_collectively(problem->context.communicator(), [&]() {
     if (problem->context.rank() != 0)
       return;
@@ -346,11 +349,12 @@ void Results<dim>::export_shape(const std::vector<double> &design)
       io::write_surface(path("surface.stl"), faces, at_faces);
     io::write_text_file(
       path("profile.csv"),
-      io::profile_text(faces, at_faces, problem->mesh->degree(),
-                       [&](unsigned int body, unsigned int boundary) {
-                         return problem->scene.bodies[body].name + '.' +
-                                problem->mesh->geometry(body).boundary_names()[boundary];
-                       }));
+      io::profile_text(
+        faces, at_faces, problem->mesh->degree(),
+        [&](unsigned int body, unsigned int boundary) {
+          return io::boundary_name(*problem->mesh, problem->scene, body, boundary);
+        },
+        [&](unsigned int node) { return whole.number_of[faces.global_node(node)] + 1; }));
     io::write_control_points(path("control-points.csv"), points);
   });
   export_profile(design);

@@ -192,15 +192,22 @@ std::vector<std::string> boundaries_of(const std::vector<FaceInfo>              
 {
   std::vector<std::string> result(faces.size());
   for (const auto &[boundary, items] : groups)
-    for (const auto &item : split(items, '+'))
-      for (const unsigned int f : faces_called(faces, item, boundary + ": " + items))
-        {
-          if (!result[f].empty() && result[f] != boundary)
-            throw bad_entry("CAD faces", boundary + ": " + items,
-                            "face " + std::to_string(f + 1) + " belongs to the boundary '" +
-                              result[f] + "' as well; a face has one boundary");
-          result[f] = boundary;
-        }
+    {
+      if (boundary.find_first_of("#\\.&+") != std::string::npos)
+        throw bad_entry("CAD faces", boundary + ": " + items,
+                        "names must not contain # \\ . & or +");
+      if (items.empty())
+        throw bad_entry("CAD faces", boundary + ": " + items, "must list faces: 'race: 3 + 4'");
+      for (const auto &item : split(items, '+'))
+        for (const unsigned int f : faces_called(faces, item, boundary + ": " + items))
+          {
+            if (!result[f].empty() && result[f] != boundary)
+              throw bad_entry("CAD faces", boundary + ": " + items,
+                              "face " + std::to_string(f + 1) + " belongs to the boundary '" +
+                                result[f] + "' as well; a face has one boundary");
+            result[f] = boundary;
+          }
+    }
   for (unsigned int f = 0; f < faces.size(); ++f)
     if (result[f].empty())
       {

@@ -12,8 +12,10 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace snug::cad {
@@ -47,13 +49,16 @@ void check_sizes(const geometry::BodyMeshParameters &parameters,
 {
   if (!(parameters.element_size > 0.))
     throw bad_entry("Element size", to_text(parameters.element_size),
-                    "must be positive; the diagonal of the part is " + to_text(size));
+                    "must be positive; the diagonal of the part is " +
+                      to_text(std::round(size * 1e3) / 1e3));
+  const std::set<std::string> all(boundaries.begin(), boundaries.end());
   for (const auto &[boundary, own] : parameters.face_sizes)
     {
       const std::string given = boundary + ": " + to_text(own);
-      if (std::find(boundaries.begin(), boundaries.end(), boundary) == boundaries.end())
+      if (all.count(boundary) == 0)
         throw bad_entry("Face sizes", given,
-                        "is not a boundary; the boundaries are " + to_text(boundaries));
+                        "is not a boundary; the boundaries are " +
+                          to_text(std::vector<std::string>(all.begin(), all.end())));
       if (!(own > 0. && own <= parameters.element_size))
         throw bad_entry("Face sizes", given, "must be positive and at most 'Element size'");
     }

@@ -16,12 +16,14 @@
 #include <Message_Messenger.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
-#include <StepRepr_RepresentationItem.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepShape_TopologicalRepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
@@ -77,15 +79,21 @@ FileShape read_step(const std::string &path, const TopAbs_ShapeEnum kind)
     throw file_error(path, "cannot be read as a STEP file");
   reader.TransferRoots();
   FileShape result;
-  result.shape           = reader.OneShape();
-  result.faces           = map_of(result.shape, kind);
-  const auto transferred = reader.WS()->TransferReader();
-  for (int f = 1; f <= result.faces.Extent(); ++f)
+  result.shape = reader.OneShape();
+  result.faces = map_of(result.shape, kind);
+  result.names.resize(result.faces.Extent());
+  const auto model    = reader.StepModel();
+  const auto transfer = reader.WS()->TransferReader()->TransientProcess();
+  for (int e = 1; e <= model->NbEntities(); ++e)
     {
-      const auto item = Handle(StepRepr_RepresentationItem)::DownCast(
-        transferred->EntityFromShapeResult(result.faces(f), 1));
-      result.names.push_back(
-        item.IsNull() || item->Name().IsNull() ? "" : usable_name(item->Name()->ToCString()));
+      const auto item = Handle(StepShape_TopologicalRepresentationItem)::DownCast(model->Value(e));
+      if (item.IsNull() || item->Name().IsNull() || item->Name()->IsEmpty())
+        continue;
+      const TopoDS_Shape own = TransferBRep::ShapeResult(transfer, item);
+      // Instances of a part in an assembly have the same face at other places.
+      for (int f = 1; f <= result.faces.Extent() && !own.IsNull(); ++f)
+        if (result.faces(f).IsPartner(own))
+          result.names[f - 1] = usable_name(item->Name()->ToCString());
     }
   return result;
 }
@@ -166,7 +174,8 @@ TopoDS_Shape chosen(const TopTools_IndexedMapOfShape &all,
   const unsigned int n = all.Extent();
   if (wanted > n)
     throw bad_entry("Solid", to_text(wanted),
-                    "must be at most " + counted(n, what) + ", which the CAD file contains");
+                    "must be at most " + std::to_string(n) + ", the number of " + what +
+                      "s in the CAD file");
   if (wanted > 0 || n == 1)
     return all(std::max(1u, wanted));
   std::string list;

@@ -113,9 +113,9 @@ std::vector<SizeSource> size_sources(const Part                          &part,
       const auto   given = sizes.find(boundaries[f]);
       const double curved =
         part.dim == 2 ? curvature(TopoDS::Edge(faces[f])) : curvature(TopoDS::Face(faces[f]));
-      const double size = given != sizes.end()         ? given->second
-                          : curved * largest * 2. > 1. ? std::max(0.5 / curved, 0.1 * largest)
-                                                       : largest;
+      const double size = given != sizes.end()     ? given->second
+                          : curved * largest > 0.8 ? std::max(0.8 / curved, 0.2 * largest)
+                                                   : largest;
       if (size >= largest)
         continue;
       Points points;

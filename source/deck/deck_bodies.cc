@@ -75,6 +75,13 @@ std::set<unsigned int> DeckBodies::faces_on(const Body &body, const std::string 
 
 bool DeckBodies::use(const std::string &set)
 {
+  // A surface whose nodes are a node set of the same name comes first, because its name is shorter.
+  const std::string suffix = " nodes";
+  const std::size_t length = set.size() - std::min(set.size(), suffix.size());
+  if (set.substr(length) == suffix && std::all_of(bodies.begin(), bodies.end(), [&](auto &body) {
+        return faces_on(body, set) == faces_on(body, set.substr(0, length));
+      }))
+    use(set.substr(0, length));
   if (used.insert(set).second)
     for (auto &body : bodies)
       {
@@ -103,6 +110,16 @@ std::vector<unsigned int> DeckBodies::bodies_of(const std::string &set) const
   return result;
 }
 
+std::string DeckBodies::boundary_name(const unsigned int b, const std::string &set) const
+{
+  const auto       &sets   = bodies[b].sets;
+  const std::string prefix = bodies[b].name + ".";
+  if (set.rfind(prefix, 0) != 0)
+    return set;
+  const std::string name = set.substr(prefix.size());
+  return std::find(sets.begin(), sets.end(), name) == sets.end() ? name : set;
+}
+
 std::vector<std::string> DeckBodies::boundaries(const unsigned int b, const std::string &set) const
 {
   const Body &body  = bodies[b];
@@ -116,7 +133,7 @@ std::vector<std::string> DeckBodies::boundaries(const unsigned int b, const std:
       std::string name;
       for (unsigned int s = 0; s < body.sets.size(); ++s)
         if (body.faces[s].count(face) > 0)
-          name += (name.empty() ? "" : " and ") + body.sets[s];
+          name += (name.empty() ? "" : " and ") + boundary_name(b, body.sets[s]);
       if (std::find(result.begin(), result.end(), name) == result.end())
         result.push_back(name);
     }

@@ -103,17 +103,19 @@ private:
       {"ELASTIC", {&M::read_elastic, {"TYPE"}}},
       {"DENSITY", {&M::read_density, {}}},
       {"SOLIDSECTION", {&M::read_section, {"ELSET", "MATERIAL"}}},
-      {"BOUNDARY", {&M::read_boundary, {}}},
-      {"DSLOAD", {&M::read_surface_load, {}}},
-      {"DLOAD", {&M::read_element_load, {}}},
+      {"BOUNDARY", {&M::read_boundary, {"OP"}}},
+      {"DSLOAD", {&M::read_surface_load, {"OP"}}},
+      {"DLOAD", {&M::read_element_load, {"OP"}}},
+      {"CLOAD", {&M::read_point_load, {"OP"}}},
       {"SURFACEINTERACTION", {&M::read_interaction, {"NAME"}}},
+      {"SURFACEBEHAVIOR", {&M::read_behavior, {"PRESSURE-OVERCLOSURE"}}},
       {"FRICTION", {&M::read_friction, {}}},
       {"CONTACTPAIR", {&M::read_contact, {"INTERACTION", "TYPE", "SMALLSLIDING"}}}};
     const auto found = readings.find(keyword.name);
     if (found == readings.end())
       return left_out.add(keyword.title, keyword.line);
     for (const auto &[option, value] : keyword.options)
-      if (found->second.options.count(option) == 0)
+      if (found->second.options.count(option) == 0 && upper_case(value) != "NO")
         left_out.add(keyword.title + ": the option " + option, keyword.line);
     (this->*found->second.read)(keyword);
   }
@@ -323,6 +325,21 @@ private:
   {
     interaction = upper_case(keyword.option("NAME"));
     model.friction.emplace(interaction, 0.);
+  }
+
+  /// Contact is hard, whatever the penalty of the deck.
+  void read_behavior(const Keyword &keyword)
+  {
+    const auto law = upper_case(keyword.option("PRESSURE-OVERCLOSURE"));
+    if (!law.empty() && law != "HARD")
+      left_out.add(keyword.title + " " + law + ": contact is hard", keyword.line);
+  }
+
+  void read_point_load(const Keyword &keyword)
+  {
+    text.for_each_line(keyword, [&](const Words & /*words*/, const unsigned long line) {
+      left_out.add(keyword.title, line);
+    });
   }
 
   void read_friction(const Keyword &keyword)

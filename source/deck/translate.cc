@@ -161,9 +161,17 @@ private:
     const auto &body = bodies.all()[b];
     write("\nsubsection Body " + body.name);
     write_entry({"Mesh", "file"});
-    write_entry({"Mesh file", file});
+    write_entry({"File", file});
     write_entry({"Mesh regions", body.group});
+    for (const auto &[set, same] : body.alias)
+      if (set != same)
+        write("  # '" + set + "' has the faces of '" + same + "'");
     write_entry({"Boundary sets", to_text(body.sets)});
+    TextMap names;
+    for (const auto &set : body.sets)
+      if (bodies.boundary_name(b, set) != set)
+        names[set] = bodies.boundary_name(b, set);
+    write_entry({"Boundary names", to_text(names)});
     write_entry(materials_of(body));
     write_holds(b);
     write_loads(b, {"Pressure"}, model.pressures);

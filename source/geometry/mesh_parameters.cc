@@ -118,10 +118,10 @@ void declare_cad(Entries &entries, BodyMeshParameters &mesh)
     "The boundaries that consist of several faces of a CAD file: 'race: 3 + 4 + 7; bore: chain 5'. "
     "All other faces are boundaries with their name in the file, or face-3 for face 3 without a "
     "name, in 2D edge-3.");
-  entries.add("Element size", mesh.element_size,
-              "The size of the elements of a CAD file: the length of their edges. Faces with a "
-              "radius of curvature R have elements of R/2, but at least a tenth of this "
-              "size. Units: length, before 'Scale'.");
+  entries.add(
+    "Element size", mesh.element_size,
+    "The length of the edges of the elements of a CAD file. Faces with a radius of curvature R "
+    "have elements of 0.8 R, but at least a fifth of this size. Units: length, before 'Scale'.");
   entries.add("Face sizes", mesh.face_sizes, allowed("a list 'boundary: size, boundary: size'"),
               "The size of the elements on boundaries of a CAD file: 'race: 0.1, bore: 0.5'. "
               "Units: length, before 'Scale'.");

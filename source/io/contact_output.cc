@@ -1,7 +1,9 @@
 #include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
+#include <snug/faces/nodal_normals.h>
 #include <snug/io/contact_output.h>
 #include <snug/io/state_files.h>
+#include <snug/io/surface_pieces.h>
 #include <snug/io/text_file.h>
 #include <snug/io/vtu_grid.h>
 
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace snug::io {
@@ -209,8 +212,57 @@ private:
   std::map<std::pair<unsigned int, unsigned int>, Grid> grids; ///< of (body, boundary)
 };
 
-/// Return one line per row. Nodes of several pairs have several lines. Positions are those of the
-/// slaves.
+/// Places of the surface nodes along the contact faces.
+template <int dim>
+struct Places
+{
+  std::vector<unsigned int>          piece, place; ///< piece of each node, its place in the piece
+  std::vector<double>                arc_length;   ///< in 2D from the begin of the piece [length]
+  typename mesh::Surface<dim>::Field normals;      ///< unit outward normals
+};
+
+/// Return the places of the nodes of slave sides. A node between two pieces belongs to the first.
+template <int dim>
+Places<dim> places_of(const Sources<dim>                       &sources,
+                      const typename mesh::Surface<dim>::Field &positions)
+{
+  const auto                 &surface = sources.surface;
+  const faces::FaceShape<dim> shape(sources.mesh.degree());
+  const auto                  pieces = surface_pieces(surface);
+  const unsigned int          none   = narrow<unsigned int>(pieces.size());
+  Places<dim>                 result{std::vector<unsigned int>(surface.n_nodes(), none),
+                     std::vector<unsigned int>(surface.n_nodes(), 0),
+                     std::vector<double>(surface.n_nodes(), 0.),
+                     typename mesh::Surface<dim>::Field(surface.n_nodes())};
+  std::vector<bool>           has_row(surface.n_nodes(), false);
+  for (const auto &row : sources.places)
+    has_row[row.slave] = true;
+  for (unsigned int p = 0; p < none; ++p)
+    {
+      const auto &nodes = pieces[p].nodes;
+      if (std::none_of(nodes.begin(), nodes.end(), [&](unsigned int n) { return has_row[n]; }))
+        continue;
+      const auto normals =
+        faces::NodalNormals<dim>(surface, pieces[p].faces, shape, positions).normals();
+      double       arc_length = 0.;
+      unsigned int place = 0, previous = pieces[p].nodes.front();
+      for (const unsigned int node : pieces[p].nodes)
+        {
+          arc_length += (positions[node] - positions[previous]).norm();
+          previous = node;
+          if (result.piece[node] != none)
+            continue;
+          result.piece[node]      = p;
+          result.place[node]      = place++;
+          result.arc_length[node] = arc_length;
+          result.normals[node]    = normals[node];
+        }
+    }
+  return result;
+}
+
+/// Return one line per row, sorted by pair and along the faces. Nodes of several pairs have several
+/// lines. Positions and normals are those of the slaves.
 template <int dim>
 std::string rows_text(const Sources<dim>             &sources,
                       const state::ContactState<dim> &state,
@@ -221,18 +273,34 @@ std::string rows_text(const Sources<dim>             &sources,
   std::string       text     = "pair,";
   for (const char axis : axes)
     text += std::string(1, axis) + ',';
+  for (const char axis : axes)
+    text += std::string("normal_") + axis + ',';
+  text += dim == 2 ? "arc_length," : "";
   text += "force,pressure,gap,area,active,weak";
   for (const std::string name : {"traction", "slip"})
     for (unsigned int c = 0; friction && c < dim; ++c)
       text += "," + name + "_" + axes[c];
   text += friction ? ",friction\n" : "\n";
-  for (unsigned int i = 0; i < state.contact.size(); ++i)
+  const auto                at = places_of<dim>(sources, fields.positions);
+  std::vector<unsigned int> order(state.contact.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](const unsigned int i, const unsigned int j) {
+    const auto key = [&](const unsigned int row) {
+      const auto &place = sources.places[row];
+      return std::tuple(place.named, at.piece[place.slave], at.place[place.slave]);
+    };
+    return key(i) < key(j);
+  });
+  for (const unsigned int i : order)
     {
       const auto &row   = sources.places[i];
       const auto &point = state.contact[i];
       text += std::to_string(row.named);
       for (unsigned int c = 0; c < dim; ++c)
         text += ',' + exact(fields.positions[row.slave][c]);
+      for (unsigned int c = 0; c < dim; ++c)
+        text += ',' + exact(at.normals[row.slave][c]);
+      text += dim == 2 ? ',' + exact(at.arc_length[row.slave]) : "";
       for (const double x : {point.force, point.pressure, point.gap, point.area})
         text += ',' + exact(x);
       text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1" : ",0");

@@ -10,8 +10,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <functional>
-#include <map>
 #include <memory>
+#include <unordered_map>
 
 namespace snug::io {
 namespace {
@@ -90,7 +90,9 @@ class BlockGrid
 {
 public:
   explicit BlockGrid(const DrawnState<dim> &state)
-    : state(state), grid(quantities(state.point_fields), quantities(state.cell_fields))
+    : state(state)
+    , n_regions(n_stress_regions(state.mesh))
+    , grid(quantities(state.point_fields), quantities(state.cell_fields))
   {}
 
   /// Add the nodes of a cell, or of a boundary face of the cell. Both show the values of the cell.
@@ -101,7 +103,7 @@ public:
     std::vector<double>       values;
     for (const unsigned int node : nodes)
       {
-        const auto [place, is_new] = number.try_emplace({node, region}, 0);
+        const auto [place, is_new] = number.try_emplace(std::size_t(node) * n_regions + region, 0);
         if (is_new)
           {
             values.clear();
@@ -126,9 +128,10 @@ public:
   }
 
 private:
-  const DrawnState<dim>                                        &state;
-  VtuGrid<d, dim>                                               grid;
-  std::map<std::pair<unsigned int, unsigned int>, unsigned int> number; ///< of (node, region)
+  const DrawnState<dim>                        &state;
+  unsigned int                                  n_regions;
+  VtuGrid<d, dim>                               grid;
+  std::unordered_map<std::size_t, unsigned int> number; ///< of the point of (node, region)
 };
 
 /// Return the blocks of the bodies, then of their boundaries.

@@ -113,7 +113,7 @@ void write_state(MPI_Comm                  comm,
         if (of_block.empty())
           continue;
         std::error_code ignored; // the file reports the failure
-        std::filesystem::create_directories(directory + '/' + stem, ignored);
+        std::filesystem::create_directory(directory + '/' + stem, ignored);
         write_text_file(directory + '/' +
                           block_path(stem, b, blocks[b].name, rank / ranks_per_file),
                         vtu(of_block));

@@ -120,7 +120,8 @@ WholeMesh<dim> gather_mesh(const mesh::BodyMesh<dim>                 &mesh,
         continue;
       own_nodes.push_back(mesh.global_node(node));
       for (unsigned int c = 0; c < dim; ++c)
-        own_values.insert(own_values.end(), {positions[node][c], forces[node][c]});
+        own_values.insert(own_values.end(),
+                          {positions[node][c], forces.empty() ? 0. : forces[node][c]});
       if (mesh.is_hanging(node))
         {
           own_hanging.push_back({{mesh.global_node(node), 1.}});

@@ -58,22 +58,34 @@ private:
     throw error_at_line(keywords[k].line, keywords[k].title + " has no *END");
   }
 
-  /// Collect the parts and the names of the sets outside of parts and instances.
+  /// Collect the parts, and the names of sets that occur in the assembly or in several instances.
   void collect_names()
   {
-    const auto &keywords = deck.keywords();
-    for (std::size_t k = 0; k < keywords.size(); ++k)
-      has_instances = has_instances || keywords[k].name == "INSTANCE";
+    const auto                         &keywords = deck.keywords();
+    std::map<std::string, unsigned int> n_instances; // by name of a set of a part
+    has_instances = std::any_of(keywords.begin(), keywords.end(),
+                                [](const auto &keyword) { return keyword.name == "INSTANCE"; });
     for (std::size_t k = 0; has_instances && k < keywords.size(); ++k)
       {
         const auto &keyword = keywords[k];
+        std::size_t end     = k;
+        if (keyword.name == "PART" || keyword.name == "INSTANCE")
+          end = end_of(k, "END" + keyword.name);
         if (keyword.name == "PART")
           parts[upper_case(keyword.option("NAME"))] = k;
-        if (keyword.name == "PART" || keyword.name == "INSTANCE")
-          k = end_of(k, "END" + keyword.name);
-        else
-          for (const auto *option : {"ELSET", "NSET", "NAME"})
-            sets.assembly_names.insert(upper_case(keyword.option(option)));
+        std::set<std::string> names;
+        const auto            part = parts.find(upper_case(keyword.option("PART")));
+        if (keyword.name == "INSTANCE" && part != parts.end())
+          for (std::size_t p = part->second; p < end_of(part->second, "ENDPART"); ++p)
+            names.insert(defined_set(keywords[p]));
+        for (std::size_t own = k; own < end && keyword.name == "INSTANCE"; ++own)
+          names.insert(defined_set(keywords[own]));
+        for (const auto &name : names)
+          if (++n_instances[name] > 1)
+            sets.qualified_names.insert(name);
+        if (end == k)
+          sets.qualified_names.insert(defined_set(keyword));
+        k = end;
       }
   }
 
@@ -100,8 +112,7 @@ private:
     return end;
   }
 
-  /// Refuse keywords that place or generate nodes and elements, because they are not supported and
-  /// would change the mesh.
+  /// Refuse keywords that place or generate nodes and elements, because they change the mesh.
   static void refuse_generation(const Keyword &keyword)
   {
     static const std::set<std::string> others = {"NGEN",  "NFILL",  "NCOPY",   "NMAP",
@@ -142,8 +153,7 @@ private:
     });
   }
 
-  /// Read a node: its number and 2 or 3 coordinates. Direction cosines of a shell's normal may
-  /// follow.
+  /// Read a node: its number and 2 or 3 coordinates. The normal of a shell may follow.
   void read_node(const Words &words, const Keyword &keyword, const std::string &prefix)
   {
     if (words.size() < 3)
@@ -159,8 +169,7 @@ private:
       sets.of_nodes[sets.key(keyword.option("NSET"), prefix)].insert(index);
   }
 
-  /// Read elements: their numbers and nodes. Elements of many nodes, such as C3D20, continue on
-  /// further lines.
+  /// Read elements: their numbers and nodes. Elements such as C3D20 continue on further lines.
   void read_elements(const Keyword &keyword, const std::string &prefix)
   {
     const ElementType type = abaqus_type(upper_case(keyword.option("TYPE")), keyword.line);
@@ -272,9 +281,8 @@ private:
       [&](const unsigned int node) { sets.of_nodes[key].insert(node); });
   }
 
-  /// Read a line "element or set, face" of a surface, such as "_Surf-1_S2, S2" with an internal set
-  /// of Abaqus/CAE, which has one for each face number of a surface. Without a face all outer faces
-  /// of the elements belong to the surface. A surface of nodes is a node set.
+  /// Read a line "element or set, face" of a surface, such as "_Surf-1_S2, S2". Without a face all
+  /// outer faces of the elements belong to the surface. A surface of nodes is a node set.
   void read_surface(const Words &words, const Keyword &keyword, const std::string &prefix)
   {
     const std::string name = keyword.option("NAME"), type = upper_case(keyword.option("TYPE"));

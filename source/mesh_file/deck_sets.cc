@@ -58,9 +58,20 @@ InstancePlace instance_place(const DeckText &deck, const Keyword &keyword)
   return place;
 }
 
+std::string defined_set(const Keyword &keyword)
+{
+  static const std::map<std::string, std::string> options = {{"NODE", "NSET"},
+                                                             {"NSET", "NSET"},
+                                                             {"ELEMENT", "ELSET"},
+                                                             {"ELSET", "ELSET"},
+                                                             {"SURFACE", "NAME"}};
+  const auto                                      found   = options.find(keyword.name);
+  return found == options.end() ? "" : upper_case(keyword.option(found->second));
+}
+
 std::string DeckSets::key(const std::string &name, const std::string &prefix)
 {
-  const bool full = !prefix.empty() && assembly_names.count(upper_case(name)) > 0;
+  const bool full = !prefix.empty() && qualified_names.count(upper_case(name)) > 0;
   spelling.emplace(prefix + upper_case(name),
                    (full ? scopes.at(prefix).instance + "." : "") + name);
   return prefix + upper_case(name);

@@ -96,6 +96,7 @@ void LoadCaseParameters::declare(Entries &entries)
         "motions of two bodies, with the case number i of 'Cases'; numbers contain no "
         "blanks"}}),
     "The motions that bring bodies and obstacles to their places in this load case. Supports, "
+    "springs, "
     "loads, prescribed displacements and displacements turn with their body. Units: degrees, "
     "length.");
   entries.add(

@@ -35,7 +35,7 @@ FacePoints face_points(const ShapedFace<dim> &face)
       for (unsigned int d = 0; d < dim; ++d)
         {
           x[d] = face.positions()[point][d];
-          n[d] = face.normals()[point][d];
+          n[d] = face.free_normals()[point][d];
         }
       result.positions.push_back(x);
       result.normals.push_back(n);
@@ -53,8 +53,12 @@ FacePoints face_points(const ShapedFace<dim> &face)
     {
       add_grid(one.nodes, face.mesh().degree());
       add_grid(one.samples, mesh::surface_degree);
-      if (!one.samples.empty())
-        result.edges.emplace_back(one.nodes.front(), one.samples.front());
+      // Faces share nodes but no samples. Samples are linked at all corners, because angles lack at
+      // corners on the axis.
+      const unsigned int p = face.mesh().degree(), q = mesh::surface_degree;
+      for (unsigned int corner = 0; corner < (one.samples.empty() ? 0 : 1u << (dim - 1)); ++corner)
+        result.edges.emplace_back(one.nodes[p * (corner % 2 + (p + 1) * (corner / 2))],
+                                  one.samples[q * (corner % 2 + (q + 1) * (corner / 2))]);
     }
   return result;
 }

@@ -117,6 +117,7 @@ ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
   if (nodes.n_nodes() == 0)
     throw bad_entry(parameters.path("Face"), parameters.face, "the mesh has no such faces");
   measure();
+  surface_normals = unit_normals;
   find_border();
   keep_to_planes();
 }

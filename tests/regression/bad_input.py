@@ -173,6 +173,10 @@ def check_mesh_files(runner):
          ["the region '9' has no material"]),
         ("units that put bodies far apart", good, {"Shift": "0, 0, 1000"},
          ["part.bottom", "distance of 999", "Scale"]),
+        ("boundary set that is not in the file", good, {"Boundary sets": "2, 3, 7"},
+         ["'7' is not a set", "the sets are 2, 3"]),
+        ("group that is no boundary set", good, {"Boundary sets": "2"},
+         ["top", "bottom, free"]),
         ("curved face of a mesh file", good, {"Curved faces": "top: sphere"},
          ["top: sphere", "is for boxes"])]
     for title, mesh, entries, names in cases:

@@ -13,11 +13,12 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 try:
     import numpy as np
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOXML import vtkXMLCollectionReader, vtkXMLPUnstructuredGridReader
+    from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader, vtkXMLPUnstructuredGridReader
 except ImportError:  # the packages are those of Debian's Python
     if os.path.realpath(sys.executable) == os.path.realpath("/usr/bin/python3"):
         raise
@@ -38,18 +39,9 @@ def arrays(grid):
 
 
 def series(path):
-    """Return {time: {group: {name: grids}}} of a .pvd file, as ParaView reads it."""
-    reader = vtkXMLCollectionReader()
-    reader.SetFileName(str(path))
-    reader.UpdateInformation()
-    result = {}
-    for k in range(reader.GetNumberOfAttributeValues(
-            reader.GetAttributeIndex("timestep"))):
-        time = reader.GetAttributeValue(reader.GetAttributeIndex("timestep"), k)
-        reader.SetRestriction("timestep", time)
-        reader.Update()
-        result[float(time)] = blocks(reader.GetOutputDataObject(0))
-    return result
+    """Return {time: {group: {name: grids}}} of a .pvd file."""
+    return {float(entry.get("timestep")): blocks(path.parent / entry.get("file"))
+            for entry in xml.etree.ElementTree.parse(path).iter("DataSet")}
 
 
 def named(block):
@@ -57,12 +49,13 @@ def named(block):
             for k in range(block.GetNumberOfBlocks())}
 
 
-def blocks(data):
-    while "bodies" not in named(data) and "boundaries" not in named(data):
-        data = data.GetBlock(0)  # the reader of series adds blocks of its own
+def blocks(path):
+    reader = vtkXMLMultiBlockDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
     return {group: {name: [parts.GetPiece(k) for k in range(parts.GetNumberOfPieces())]
                     for name, parts in named(block).items()}
-            for group, block in named(data).items()}
+            for group, block in named(reader.GetOutput()).items()}
 
 
 class States(unittest.TestCase):
@@ -130,7 +123,7 @@ class Pictures(unittest.TestCase):
                               capture_output=True, check=False)
 
     def test_all_are_drawn(self):
-        for options in ([], ["--cut", "x=0.3", "--view", "-60,25"], ["--view=-z"]):
+        for options in ([], ["--cut", "x=0.3", "--view", "-60,25"]):
             done = self.plot(*options)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             for name in ("convergence", "shape", "contact-pressure", "von-mises"):
@@ -150,7 +143,7 @@ class Pictures(unittest.TestCase):
         try:
             done = self.plot()
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
-            self.assertIn("solution-0000.vtm' or one of its pieces is damaged", done.stderr)
+            self.assertIn("01-lower.0000.vtu' is damaged", done.stderr)
         finally:
             path.write_text(text, encoding="utf-8")
 

@@ -97,6 +97,7 @@ def input_cases(body, slave, master):
         wrong("displacement of a held component", own + "Displacement",
               "left: x = 0.1", ["Supports"]),
         wrong("force without components", own + "Force", "top: 1"),
+        *concentrated_cases(own),
         wrong("load case without a body", "Load case a/Pressure", "x.top: 1",
               others={"Load cases": "a"}),
         wrong("body twice", "Bodies", f"{body}, {body}"),
@@ -140,6 +141,7 @@ def input_cases(body, slave, master):
               ["formula of x,y,z"], friction),
         wrong("friction that drives", "Contact/Friction coefficient", "-0.1",
               ["0 or above"], friction),
+        wrong("unknown format of a mesh", "Output/Meshes", "msh, vtk", ["among msh, inp"]),
         wrong("friction in a quadratic program", "Output/Export QP", "true",
               ["friction", "quadratic program"], {**friction, "Contact/Friction coefficient": "0.1"}),
         wrong("friction without its solver", "Solver/Method", "SMALSE-M",
@@ -215,6 +217,45 @@ def input_cases(body, slave, master):
     ]
 
 
+def concentrated_cases(own):
+    """Forces at points and along lines, springs and temperatures."""
+    force, line, springs = own + "Point force", own + "Line force", own + "Springs"
+    points, heat = own + "Point springs", own + "Temperature"
+    expands = {own + "Expansion": "1e-5"}
+    return [
+        wrong("point without a place", force, "top: 0 0 -1", ["x y z at x y z"]),
+        wrong("point of two components", force, "top: 0 0 -1 at 0 0", ["3 components"]),
+        wrong("point force of two components", force, "top: 0 1 at 0 0 2", ["3 components"]),
+        wrong("point force without a force", force, "top: at 0 0 2", ["missing"]),
+        wrong("two places of a force", force, "top: 0 0 1 at 0 0 2 at 1 1 2", ["twice"]),
+        wrong("force that is no number", force, "top: 0 0 x at 0 0 2", ["number"]),
+        wrong("point force that overflows", force, "top: 0 0 1e70 at 0 0 2", ["1e+60"]),
+        wrong("point force on no boundary", force, "lid: 0 0 1 at 0 0 2", ["lid"]),
+        wrong("line without its end", line, "top: 0 0 -1 from 0 0 2", ["from x y z to"]),
+        wrong("line of no length", line, "top: 0 0 -1 from 0 0 2 to 0 0 2", ["different ends"]),
+        wrong("line along no boundary", line, "top: 0 0 -1 along rim", ["rim"]),
+        wrong("line by two ways", line, "top: 0 0 -1 from 0 0 2 to 1 0 2 along left",
+              ["along boundary"]),
+        wrong("springs without a stiffness", springs, "top: z", ["components = formula"]),
+        wrong("springs along no axis", springs, "top: w = 1", ["components are"]),
+        wrong("springs on no boundary", springs, "lid: z = 1", ["lid"]),
+        wrong("springs by no formula", springs, "top: z = 1 +", ["Springs"]),
+        wrong("two springs in a direction", springs, "top: z = 1, top: xz = 2", ["one direction"]),
+        wrong("springs that push away", springs, "top: z = -1", ["must not be negative"]),
+        wrong("point springs without a place", points, "top: 0 0 1", ["x y z at x y z"]),
+        wrong("negative point spring", points, "top: 0 0 -1 at 0 0 2", ["must not be negative"]),
+        wrong("point spring of zero", points, "top: 0 0 0 at 0 0 2", ["must have a stiffness"]),
+        wrong("export of springs", "Output/Export QP", "true", ["springs"],
+              {springs: "top: z = 1"}),
+        wrong("temperature that is no formula", heat, "hot", others=expands),
+        wrong("temperature without expansion", heat, "100", ["Expansion"]),
+        wrong("temperature of no body", "Load case a/Temperature", "lid: 1",
+              ["no body"], {"Load cases": "a"}),
+        wrong("temperature of a body that does not expand", "Load case a/Temperature",
+              own[5:-1] + ": 1", ["Expansion"], {"Load cases": "a"}),
+    ]
+
+
 def setup_cases(body, slave):
     """What only shows once there are meshes; --validate finds it, too."""
     own = f"Body {body}/"
@@ -222,6 +263,14 @@ def setup_cases(body, slave):
         wrong("control point that is not there", "Shape/Fixed", "7"),
         wrong("designs of another size", "Shape/Initial", "0, 0",
               ["6 numbers"]),
+        wrong("point beside its boundary", own + "Point force", "top: 0 0 -1 at 0.5 0.5 9",
+              ["must be on the boundary"]),
+        wrong("line beyond its boundary", own + "Line force",
+              "top: 0 0 -1 from 0.5 0.5 2 to 0.5 9 2", ["must be on the boundary"]),
+        wrong("boundaries without a common edge", own + "Line force", "top: 0 0 -1 along bottom",
+              ["no common edge"]),
+        wrong("point spring beside its boundary", own + "Point springs", "top: 0 0 1 at 7 7 7",
+              ["must be on the boundary"]),
         Case("pair with nothing opposite", {own + "Shift": "3, 0, 0"},
              ["opposite", slave], []),
         Case("faces paired through their body",
@@ -264,6 +313,9 @@ def option_cases():
              ["--set", "Yuong=4711"]),
         Case("wrong value in a setting", {}, ["Task", "optimise"],
              ["--set", "Task=optimise"]),
+        Case("translation of a parameter file", {}, ["--translate", "deck"], ["--translate"]),
+        Case("translation and restart", {}, ["--translate", "--restart"],
+             ["--translate", "--restart"]),
         Case("restart of a state", {}, ["--restart", "optimization"],
              ["--restart", "--set", "Task=state"]),
     ]

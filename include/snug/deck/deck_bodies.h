@@ -35,6 +35,9 @@ public:
   /// Return the bodies that have faces of the set.
   std::vector<unsigned int> bodies_of(const std::string &set) const;
 
+  /// Return the name of one of the 'Boundary sets' of a body: SET for BODY.SET.
+  std::string boundary_name(unsigned int body, const std::string &set) const;
+
   /// Return the boundaries of a body that consist of faces of the set, such as "a" and "a and b".
   /// All sets must have been used before.
   std::vector<std::string> boundaries(unsigned int body, const std::string &set) const;

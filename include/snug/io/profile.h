@@ -10,6 +10,9 @@ namespace snug::io {
 /// Function that returns the name "body.boundary" of a boundary of a body.
 using FaceName = std::function<std::string(unsigned int body, unsigned int boundary)>;
 
+/// Function that returns the number of a node of the surface in mesh files.
+using NodeNumber = std::function<unsigned int(unsigned int surface_node)>;
+
 /**
  * Return the profile of shaped faces as CSV, for grinding and measuring. Each connected piece of a
  * boundary has one row per node, in 2D along the piece with the body on its left, in 3D in the
@@ -18,14 +21,17 @@ using FaceName = std::function<std::string(unsigned int body, unsigned int bound
  * | column                 | meaning                                                              |
  * |------------------------|----------------------------------------------------------------------|
  * | face, piece            | name of the boundary, number of the piece                            |
+ * | node                   | number of the node in bodies.msh and bodies.inp                      |
  * | arc_length             | 2D: length of the polyline in the reference geometry                 |
+ * | reference_x, _y, _z    | position in the reference geometry                                   |
  * | x, y, z                | position in the design                                               |
- * | dx, dy, dz             | displacement from the reference geometry                             |
  * | normal_x, _y, _z       | unit outward normal n in the reference geometry                      |
- * | move                   | displacement along n                                                 |
+ * | move                   | displacement from the reference geometry along n                     |
  * | reference_drop, drop   | max_j m.x_j - m.x along the mean normal m of the piece: the depth    |
  * |                        | below the highest point of the piece. Empty for pieces that surround |
  * |                        | the body or a bore, whose normals cancel.                            |
+ * | deviation              | maximum distance of the mesh faces at the node from the true surface |
+ * |                        | of the design                                                        |
  *
  * @p positions are those of the nodes or points of @p surface in the design. @throws TangledMesh if
  * a face has no area.
@@ -34,7 +40,8 @@ template <int dim>
 std::string profile_text(const mesh::Surface<dim>                 &surface,
                          const typename mesh::Surface<dim>::Field &positions,
                          unsigned int                              degree,
-                         const FaceName                           &name);
+                         const FaceName                           &name,
+                         const NodeNumber                         &node_number);
 } // namespace snug::io
 
 #endif

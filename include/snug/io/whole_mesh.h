@@ -39,11 +39,11 @@ struct WholeMesh
 };
 
 /// Gather the mesh with the nodes at @p positions and nodal @p forces, which are the sums over the
-/// ranks. The result is empty on ranks other than 0. Collective.
+/// ranks; without forces they are zero. The result is empty on ranks other than 0. Collective.
 template <int dim>
 WholeMesh<dim> gather_mesh(const mesh::BodyMesh<dim>                 &mesh,
                            const typename mesh::BodyMesh<dim>::Field &positions,
-                           const typename mesh::BodyMesh<dim>::Field &forces);
+                           const typename mesh::BodyMesh<dim>::Field &forces = {});
 } // namespace snug::io
 
 #endif

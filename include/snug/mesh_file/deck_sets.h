@@ -23,6 +23,9 @@ struct InstancePlace
 /// an angle in degrees. @throws InputError with the line.
 InstancePlace instance_place(const DeckText &deck, const Keyword &keyword);
 
+/// Return the name, in upper case, of the set that a keyword defines, or "".
+std::string defined_set(const Keyword &keyword);
+
 /// A numbering of nodes and elements: one of the file, and one of each instance.
 struct Scope
 {
@@ -39,9 +42,10 @@ struct DeckSets
 {
   std::map<std::string, Scope>                  scopes; ///< by prefix
   std::map<std::string, std::set<unsigned int>> of_elements, of_nodes;
-  std::set<std::string>              assembly_names; ///< of sets outside of parts and instances
-  std::map<std::string, std::string> spelling;       ///< key of a set -> name of the group
-  std::set<std::string>              surfaces;       ///< names of the groups of faces
+  /// names in upper case of sets that occur in the assembly or in several instances
+  std::set<std::string>              qualified_names;
+  std::map<std::string, std::string> spelling; ///< key of a set -> name of the group
+  std::set<std::string>              surfaces; ///< names of the groups of faces
   /// line of *BOUNDARY or *DLOAD with nodes or faces -> name of the optional boundary
   std::map<unsigned long, std::string> of_lines;
 

@@ -14,11 +14,11 @@ MeshFile read_gmsh(const std::string &text);
 /**
  * Read a deck of Abaqus or CalculiX (.inp): the parts at the places of their instances. The groups
  * are the element surfaces, the instances, and the element sets except the sets of Abaqus/CAE,
- * whose names begin with _. A set of a part is called INSTANCE.SET if the assembly has a set of the
- * same name, otherwise SET. Cells that are connected, but in no common group of their own, are the
- * group body-N. Node sets, the faces of *DLOAD as Dload-LINE and the nodes of *BOUNDARY as
- * Boundary-LINE are optional boundaries. Keywords that generate or move nodes or elements are
- * errors. Other keywords are skipped. Source: Abaqus keywords reference.
+ * whose names begin with _. A set of a part is called INSTANCE.SET if the assembly or another
+ * instance has a set of the same name, otherwise SET. Cells that are connected, but in no common
+ * group of their own, are the group body-N. Node sets, the faces of *DLOAD as Dload-LINE and the
+ * nodes of *BOUNDARY as Boundary-LINE are optional boundaries. Keywords that generate or move nodes
+ * or elements are errors. Other keywords are skipped. Source: Abaqus keywords reference.
  */
 MeshFile read_abaqus(const std::string &text);
 /// @}

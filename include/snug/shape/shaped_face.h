@@ -35,6 +35,8 @@ public:
   /// of the body and the angle between normal and plane is less than 25 degrees, the normal is
   /// projected onto the plane, so that shapes stay in symmetry planes.
   const Field &normals() const { return unit_normals; }
+  /// Return the unit outward normals without this projection.
+  const Field &free_normals() const { return surface_normals; }
   /// Return the tributary areas of the surface points [length^(dim-1)]. The areas of hanging nodes
   /// and samples are zero.
   const std::vector<double> &areas() const { return node_areas; }
@@ -57,7 +59,7 @@ private:
   std::vector<std::pair<unsigned int, unsigned int>> places; ///< body, boundary
   std::vector<unsigned int>                          own_boundaries;
   mesh::Surface<dim>                                 nodes;
-  Field                                              unit_normals;
+  Field                                              unit_normals, surface_normals;
   std::vector<double>                                node_areas;
   std::vector<bool>                                  on_border;
 };

@@ -1,4 +1,5 @@
 #include <snug/io/profile.h>
+#include <snug/mesh/lagrange.h>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +34,11 @@ std::string face_name(const unsigned int body, const unsigned int boundary)
   return std::to_string(body) + "." + std::to_string(boundary);
 }
 
+unsigned int node_number(const unsigned int node)
+{
+  return 10 * node;
+}
+
 TEST(Profile, RunsWithTheBodyOnItsLeft)
 {
   const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, test::two_boxes<2>(true), 2);
@@ -41,7 +47,7 @@ TEST(Profile, RunsWithTheBodyOnItsLeft)
   auto                    positions = surface.gather(mesh.reference_positions());
   for (auto &x : positions)
     x[1] -= 0.1 * x[0] * x[0]; // highest at x = 0
-  const auto rows = read_profile(io::profile_text(surface, positions, 2, face_name));
+  const auto rows = read_profile(io::profile_text(surface, positions, 2, face_name, node_number));
   // cells of size 1/4, 1/4, 1/2 with two steps each
   ASSERT_EQ(rows.size(), 7u);
   EXPECT_EQ(number(rows.front(), "x"), 1.);
@@ -52,7 +58,9 @@ TEST(Profile, RunsWithTheBodyOnItsLeft)
       EXPECT_EQ(row.at("face"), face_name(1, top));
       EXPECT_NEAR(number(row, "arc_length"), 1. - x, 1e-14);
       EXPECT_NEAR(number(row, "y"), 2. - drop, 1e-14);
-      EXPECT_NEAR(number(row, "dy"), -drop, 1e-14);
+      EXPECT_NEAR(number(row, "reference_y"), 2., 1e-14);
+      // Samples of a flat face are the interpolation of its nodes.
+      EXPECT_EQ(number(row, "deviation"), 0.);
       EXPECT_NEAR(number(row, "move"), -drop, 1e-14);
       EXPECT_NEAR(number(row, "normal_y"), 1., 1e-14);
       EXPECT_NEAR(number(row, "reference_drop"), 0., 1e-14);
@@ -68,7 +76,7 @@ TEST(Profile, OppositeSidesAreTwoPieces)
   };
   const mesh::Surface<2> surface(mesh, {{1, index("bottom")}, {1, index("top")}});
   const auto             positions = surface.gather(mesh.reference_positions());
-  const auto             rows = read_profile(io::profile_text(surface, positions, 1, face_name));
+  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name, node_number));
   ASSERT_FALSE(rows.empty());
   EXPECT_EQ(rows.front().at("piece"), "0");
   EXPECT_EQ(rows.back().at("piece"), "1");
@@ -91,7 +99,7 @@ TEST(Profile, ARingIsClosedAndHasNoDrop)
   auto                    positions = surface.gather(mesh.reference_positions());
   for (auto &x : positions)
     x *= 1.01;
-  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name));
+  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name, node_number));
   ASSERT_GT(rows.size(), 2u);
   EXPECT_EQ(rows.front().at("x"), rows.back().at("x"));
   EXPECT_EQ(rows.front().at("y"), rows.back().at("y"));
@@ -105,6 +113,26 @@ TEST(Profile, ARingIsClosedAndHasNoDrop)
     }
 }
 
+/// The true surface of a circle is r (1 - cos(a / 2)) off its chords of the angle a.
+TEST(Profile, TheDeviationIsThatOfTheChords)
+{
+  geometry::BodyMeshParameters ring;
+  ring.source             = geometry::Source::ring;
+  ring.radius             = 2.;
+  ring.inner_radius       = 1.;
+  ring.sampled_boundaries = {"outer"};
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, {ring}, 1);
+  const mesh::Surface<2>  surface(mesh, {{0, geometry::boundary_index(mesh.geometry(0), "outer")}});
+  const auto              positions = surface.gather(mesh.reference_positions());
+  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name, node_number));
+  ASSERT_GT(rows.size(), 2u);
+  // The middle of a face is among the samples, because their degree is even.
+  static_assert(mesh::surface_degree % 2 == 0);
+  const double n = rows.size() - 1;
+  for (const auto &row : rows)
+    EXPECT_NEAR(number(row, "deviation"), 2. * (1. - std::cos(M_PI / n)), 1e-12);
+}
+
 TEST(Profile, SolidFacesHaveOneRowPerNode)
 {
   for (const unsigned int degree : {1, 2})
@@ -115,8 +143,11 @@ TEST(Profile, SolidFacesHaveOneRowPerNode)
       auto                    positions = surface.gather(mesh.reference_positions());
       for (auto &x : positions)
         x[0] += 0.1 * x[1]; // into the body, highest at y = 0
-      const auto rows = read_profile(io::profile_text(surface, positions, degree, face_name));
+      const auto rows =
+        read_profile(io::profile_text(surface, positions, degree, face_name, node_number));
       EXPECT_EQ(rows.size(), surface.n_nodes());
+      for (unsigned int node = 0; node < rows.size(); ++node)
+        EXPECT_EQ(number(rows[node], "node"), 10. * node);
       for (const auto &row : rows)
         {
           EXPECT_EQ(row.count("arc_length"), 0u);

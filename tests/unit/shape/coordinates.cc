@@ -238,7 +238,7 @@ TEST(Coordinates, RunAlongAChainOfBoundaries)
   auto bodies            = plain_cube<2>(6);
   bodies[0].curved_faces = {{"top", "cylinder z 3"}};
   const mesh::BodyMesh<2> whole(MPI_COMM_WORLD, bodies, 2);
-  bodies[0].boundary_formulas = {{"crest", "top & 0.51-x"}};
+  bodies[0].boundary_formulas = {{"crest", "top & 0.5-x"}};
   const mesh::BodyMesh<2> parts(MPI_COMM_WORLD, bodies, 2);
   const auto              design = random_numbers(5, 9);
   auto                    one    = patch("body.top", {5});

@@ -1,3 +1,5 @@
+#include <snug/shape/spline.h>
+
 #include <cmath>
 
 #include "bodies.h"
@@ -119,8 +121,9 @@ TEST(Limits, OfCurvatureCountFromTheFace)
 {
   for (const double radius : {3., -3.})
     {
-      auto bodies            = plain_cube<2>(8);
-      bodies[0].curved_faces = {{"top", "cylinder z " + std::to_string(radius)}};
+      auto bodies                  = plain_cube<2>(8);
+      bodies[0].curved_faces       = {{"top", "cylinder z " + std::to_string(radius)}};
+      bodies[0].sampled_boundaries = {"top"};
       const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, bodies, 1);
       auto                    parameters = top_patch({5});
       parameters.coordinates             = shape::Coordinates::arc_length;

@@ -1,0 +1,268 @@
+#!/usr/bin/env python3
+"""Decks of Abaqus and CalculiX, read and written: decks.py SNUG MESHES --mpiexec MPIEXEC.
+
+Decks of two blocks in the styles of three pre-processors have the state of a parameter file with
+boxes. What they contain beyond it is listed with its lines, and each kind of damage is one line. The
+files of a designed scene are read back to the same state, and CalculiX finds its displacements and
+contact pressures as far as its penalty and its elements allow."""
+
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from calculix import field
+
+BLOCKS = """
+set Bodies = lower, upper
+subsection Body lower
+  set Box size = 2, 2, 1
+  set Box cells = 2, 2, 1
+  set Young's modulus = 1000
+  set Poisson's ratio = 0.3
+  set Supports = bottom: xyz
+end
+subsection Body upper
+  set Box size = 2, 2, 1
+  set Box corner = 0, 0, 1
+  set Box cells = 2, 2, 1
+  set Young's modulus = 1000
+  set Poisson's ratio = 0.3
+  set Supports = top: xy
+  set Pressure = top: 10
+end
+subsection Contact
+  set Pairs = lower.top: upper.bottom
+  set Slave = first
+  set Friction = Coulomb
+  set Friction coefficient = 0.1
+end
+"""
+EXACT = ["Solver/Relative tolerance=1e-12", "Accuracy/Estimate=none"]
+# What the decks contain beyond the parameter file, with the lines
+LEFT_OUT = {
+    "cae-blocks.inp": ["*FRICTION: the option SLIPTOLERANCE (line 90)",
+                       "*CONTACT PAIR: the option ADJUST (line 103)",
+                       "*OUTPUT (lines 126 and 127)"],
+    "ccx-blocks.inp": ["*SURFACE BEHAVIOR LINEAR: contact is hard (line 66)",
+                       "*STEP: the option NLGEOM (line 83)", "*NODE FILE (line 91)"],
+    "prepomax-blocks.inp": ["without a face whose nodes are all in the set (line 136)",
+                            "*NODE FILE (line 148)"]}
+# A punch whose bottom is designed, on a flat block, at both of which nodes match. The rows have the
+# normal of the flat master side, so that the true surface between the nodes does not matter.
+DESIGNED = """
+set Task = optimize
+set Bodies = punch, base
+subsection Body punch
+  set Box corner = 0, 0, 1
+  set Box cells = 4, 4, 2
+  set Young's modulus = 2000
+  set Poisson's ratio = 0.3
+  set Supports = left: x, right: x, front: y, back: y
+  set Pressure = top: 20
+end
+subsection Body base
+  set Box cells = 4, 4, 2
+  set Young's modulus = 1000
+  set Poisson's ratio = 0.25
+  set Supports = bottom: xyz
+end
+subsection Contact
+  set Pairs = punch.bottom: base.top
+  set Slave = first
+end
+subsection Shape
+  set Basis = Bezier patch
+  set Face = punch.bottom
+  set Control points = 3, 3
+  set Bounds = -0.05, 0.05
+  set Initial = 0.02, 0, 0, 0, -0.02, 0, 0, 0, 0
+end
+subsection Optimization
+  set Maximum evaluations = 3
+end
+subsection Output
+  set Meshes = msh, inp
+end
+"""
+READ_BACK = """
+set Bodies = punch, base
+subsection Body punch
+  set Mesh = file
+  set File = {file}
+  set Mesh regions = punch
+  set Boundary names = {punch}
+  set Young's modulus = 2000
+  set Poisson's ratio = 0.3
+  set Supports = left: x, right: x, front: y, back: y
+  set Pressure = top: 20
+end
+subsection Body base
+  set Mesh = file
+  set File = {file}
+  set Mesh regions = base
+  set Boundary names = {base}
+  set Young's modulus = 1000
+  set Poisson's ratio = 0.25
+  set Supports = bottom: xyz
+end
+subsection Contact
+  set Pairs = punch.bottom: base.top
+  set Slave = first
+end
+"""
+FACES = ("left", "right", "front", "back", "bottom", "top")
+# Damage of ccx-blocks.inp, and words of the message
+WRONG = [
+    ("*NSET, NSET=NFIX, GENERATE\n1,9", "*NSET, NSET=NFIX\n1,x", ["line 29", "'x'", "neither a set"]),
+    ("*NSET, NSET=NFIX, GENERATE\n1,9", "*NSET, NSET=NFIX\n1,99", ["the node 99"]),
+    ("NSET=NFIX, GENERATE", "NSET=NFIX, INSTANCE=a, GENERATE", ["no instance 'a'"]),
+    ("ELOW, S2", "ELOW, S7", ["has no face 'S7'"]),
+    ("SSLAVE, SMASTER\n*BOUND", "SSLAVE, SMISSING\n*BOUND", ["no surface 'SMISSING'"]),
+    ("*MATERIAL, NAME=EL\n", "*MATERIAL, NAME=XX\n", ["no *MATERIAL 'EL'"]),
+    ("*ELASTIC\n1000, .3", "*ELASTIC, TYPE=ORTHO\n1000, .3", ["has no isotropic *ELASTIC"]),
+    ("*ELASTIC\n1000, .3", "*ELASTIC\n1000", ["a modulus and a ratio"]),
+    ("*ELASTIC\n1000, .3", "*ELASTIC\n1000, 0.7", ["Poisson's ratio", "0.7"]),
+    ("*SOLID SECTION, ELSET=EALL", "*SOLID SECTION, ELSET=ELOW", ["have no material"]),
+    ("*SOLID SECTION, ELSET=EALL", "*SOLID SECTION, ELSET=EXX", ["'EXX'", "neither a set"]),
+    ("NFIX,1,3", "NFIX", ["a set and its components"]),
+    ("NFIX,1,3", "NXXX,1,3", ["NXXX"]),
+    ("NFIX,1,3", "NFIX,one,3", ["'one'"]),
+    ("11,P2,10.", "11,P9,10.", ["has no face 'P9'"]),
+    ("11,P2,10.", "11,P2,ten", ["'ten' is not a number"]),
+    ("** two blocks", "two blocks", ["needs a deck"]),
+    ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=B31", ["element type 'B31'"]),
+    ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["*INCLUDE", "is not supported"]),
+    ("*NODE, NSET=NALL", "*INSTANCE, NAME=a, PART=b\n*NODE, NSET=NALL", ["has no *END"]),
+    ("*NODE, NSET=NALL", "*PART, NAME=b\n*PART, NAME=c\n*NODE, NSET=NALL", ["more than one part"])]
+
+
+class Runner:
+    def __init__(self, snug, mpiexec, folder):
+        self.snug, self.mpiexec, self.folder, self.wrong = snug, mpiexec, folder, []
+
+    def run(self, *words, ranks=1):
+        command = [self.mpiexec, "-np", ranks] if ranks > 1 else []
+        return subprocess.run([str(word) for word in [*command, self.snug, *words]], text=True,
+                              check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def summary(self, title, scene, *sets, ranks=1):
+        """Run a scene and return its summary and its output directory."""
+        output = self.folder / title
+        done = self.run(scene, "--output", output,
+                        *(word for entry in sets for word in ("--set", entry)), ranks=ranks)
+        if not (output / "summary.json").exists():
+            raise SystemExit(f"{title}: {done.stdout}")
+        return json.loads((output / "summary.json").read_text()), output
+
+    def require(self, title, good, message=""):
+        print(f"{title}: {'good' if good else 'WRONG'} {message}")
+        if not good:
+            self.wrong.append(f"{title}: {message}")
+
+    def compare(self, title, found, expected, tolerance):
+        state, other = found["state"], expected["state"]
+        for name in ("energy", "compliance", "max_pressure", "contact_area"):
+            error = abs(state[name] - other[name]) / abs(other[name])
+            self.require(f"{title}, {name}", error <= tolerance, f"{state[name]} error {error:.1e}")
+
+
+def check_decks(runner, meshes):
+    scene = runner.folder / "blocks.prm"
+    scene.write_text(BLOCKS)
+    expected, _ = runner.summary("blocks", scene, *EXACT)
+    for name, lines in LEFT_OUT.items():
+        found, _ = runner.summary(name, meshes / name, *EXACT, ranks=2)
+        runner.compare(name, found, expected, 1e-9)
+        done = runner.run("--translate", meshes / name)
+        runner.require(f"{name} lists what it leaves out",
+                       done.returncode == 0 and all(line in done.stdout for line in lines),
+                       done.stdout[:900])
+        # The parameter file says the same beside the deck.
+        shutil.copy(meshes / name, runner.folder)
+        written = runner.folder / (name + ".prm")
+        written.write_text(done.stdout)
+        found, _ = runner.summary(name + ".prm.out", written, *EXACT)
+        runner.compare(f"parameter file of {name}", found, expected, 1e-9)
+
+
+def check_wrong_decks(runner, meshes):
+    good = (meshes / "ccx-blocks.inp").read_text()
+    for number, (old, new, words) in enumerate(WRONG):
+        assert old in good, old
+        path = runner.folder / f"wrong-{number}.inp"
+        path.write_text(good.replace(old, new, 1))
+        words = [path.name, *words]
+        for arguments in ([path, "--validate"], ["--translate", path]):
+            done = runner.run(*arguments)
+            if "0.7" in words and "--translate" in arguments:
+                continue  # the range of an entry is checked when the scene is read
+            is_no_deck = "needs a deck" in words and "--validate" in arguments
+            runner.require(f"wrong deck {number}",
+                           done.returncode == 2 and done.stdout.count("\n") == 1 and
+                           (is_no_deck or all(word in done.stdout for word in words)),
+                           done.stdout[:300])
+
+
+def check_read_back(runner):
+    scene = runner.folder / "designed.prm"
+    scene.write_text(DESIGNED)
+    designed, output = runner.summary("designed", scene, *EXACT)
+    for ending in ("msh", "inp"):
+        path = runner.folder / f"read-{ending}.prm"
+        path.write_text(READ_BACK.format(file=output / f"bodies.{ending}", **{
+            body: ", ".join(f"{body}.{face}: {face}" for face in FACES)
+            for body in ("punch", "base")}))
+        found, _ = runner.summary(f"read-{ending}", path, *EXACT)
+        runner.compare(f"bodies.{ending} read back", found, designed, 1e-9)
+    found, _ = runner.summary("read-deck", output / "bodies.inp", *EXACT)
+    runner.compare("bodies.inp as a model", found, designed, 1e-9)
+    # The files do not depend on the ranks.
+    _, other = runner.summary("ranks", scene, *EXACT, "Task=state", ranks=3)
+    _, one = runner.summary("rank", scene, *EXACT, "Task=state")
+    for ending in ("msh", "inp"):
+        runner.require(f"bodies.{ending} on 3 ranks",
+                       (other / f"bodies.{ending}").read_text() ==
+                       (one / f"bodies.{ending}").read_text())
+    return designed, output
+
+
+def check_calculix(runner, designed, output):
+    """The elements C3D8 of CalculiX are selectively reduced, and its contact is a penalty."""
+    job = runner.folder / "bodies"
+    shutil.copy(output / "bodies.inp", job.with_suffix(".inp"))
+    done = subprocess.run(["ccx", job.name], cwd=runner.folder, text=True, check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    runner.require("CalculiX ends", done.returncode == 0 and "Job finished" in done.stdout,
+                   done.stdout[-500:])
+    displacement, contact = field(job.with_suffix(".frd"), "DISP"), field(job.with_suffix(".frd"),
+                                                                         "CONTACT")
+    lowest = min(u[2] for u in displacement.values())
+    peak = max(values[3] for values in contact.values())
+    force = designed["state"]["contact_force"][2]
+    print(f"CalculiX: minimum displacement {lowest}, peak pressure {peak}; Snug: peak pressure "
+          f"{designed['state']['max_pressure']}, force {force}")
+    error = abs(peak / designed["state"]["max_pressure"] - 1)
+    runner.require("peak pressure of CalculiX", error < 0.05, f"error {error:.3f}")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("snug", type=pathlib.Path)
+    parser.add_argument("meshes", type=pathlib.Path)
+    parser.add_argument("--mpiexec", default="mpirun")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        runner = Runner(options.snug.resolve(), options.mpiexec, pathlib.Path(folder))
+        check_decks(runner, options.meshes)
+        check_wrong_decks(runner, options.meshes)
+        check_calculix(runner, *check_read_back(runner))
+    print("\n".join(runner.wrong) or "all right")
+    return bool(runner.wrong)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
