@@ -15,6 +15,7 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -44,7 +45,8 @@ std::map<std::string, TopoDS_Face> read_faces(const std::string &path)
 std::map<std::string, TopoDS_Face> written(const std::vector<SplineFace> &faces,
                                            const std::string             &unit = "mm")
 {
-  const std::string path = std::filesystem::temp_directory_path() / "snug-write-step.step";
+  const std::string path = std::filesystem::temp_directory_path() /
+                           ("snug-write-step-" + std::to_string(getpid()) + ".step");
   cad::write_step(path, unit, faces);
   const auto result = read_faces(path);
   std::filesystem::remove(path);
