@@ -355,6 +355,8 @@ CHECKS = [
           1e-4, ["Shape/Reach=0"]),
     Check("ground-profile", [], ground_volume(SLOPE_VOLUME), 1e-6),
     Check("ground-profile", ["Optimization/Algorithm=MMA"], ground_volume(SLOPE_VOLUME), 1e-4),
+    Check("ground-profile", ["Task=sensitivity"],
+          values({"profile.0.deviation": Below(1e-9), "profile.0.asked": 1e-9}), 1e-6),
     Check("ground-profile", ["Shape/Maximum slope=0", "Shape/Minimum tool radius=5"],
           ground_volume(TOOL_VOLUME), 1e-6),
     Check("ground-profile", ["Shape/Maximum slope=0", "Shape/Convex=true"], ground_volume(0),

@@ -358,6 +358,7 @@ void Results<dim>::export_shape(const std::vector<double> &design)
         [&](unsigned int node) { return whole.number_of[faces.global_node(node)] + 1; }));
     io::write_control_points(path("control-points.csv"), points);
   });
+  export_profile(design);
 }
 
 /// Return the numbers of rows. Rows of gluing and supports, which all positions share, count once.

@@ -78,10 +78,11 @@ void remove_files(const std::string &directory, const std::regex &names)
 
 void remove_results(const RunContext &context, const std::vector<std::string> &directories)
 {
-  static const std::regex ours("(solution|contact)(\\.pvd|-\\d{4,}\\.(vtm|pvtu))|"
-                               "contact-\\d{4,}\\.csv|(history|gradients)\\.csv|summary\\.json|"
-                               "surface\\.stl|bodies\\.(msh|inp)|(profile|control-points)\\.csv|"
-                               "journal\\.txt|warm-start\\.\\d+\\.[01]");
+  static const std::regex ours(
+    "(solution|contact)(\\.pvd|-\\d{4,}\\.(vtm|pvtu))|"
+    "contact-\\d{4,}\\.csv|(history|gradients)\\.csv|summary\\.json|"
+    "surface\\.stl|profile\\.step|bodies\\.(msh|inp)|(profile|control-points)\\.csv|"
+    "journal\\.txt|warm-start\\.\\d+\\.[01]");
   static const std::regex of_qp("(K|B|R|f|g|bounded|u|lambda)\\.(petsc|mtx)");
   static const std::regex states("(solution|contact)-\\d{4,}"),
     blocks("\\d{2,}-.*\\.\\d{4,}\\.vtu");

@@ -34,6 +34,10 @@ void OutputParameters::declare(Entries &entries)
     "The formats in which the bodies of the last design are written, with the positions of the "
     "nodes without a load. An empty list means none.");
   entries.add(
+    "Profile deviation", profile_deviation, at_least(0.),
+    "The maximum distance of the B-splines in profile.step from the shaped faces, relative to the "
+    "size of each face, the diagonal of its box. A value of 0 means that the file is not written.");
+  entries.add(
     "Export QP", export_qp,
     "Whether to write the quadratic program of the first state and its solution into qp/, "
     "for other solvers, as binary files of PETSc and in Matrix Market format. See "

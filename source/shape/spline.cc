@@ -6,23 +6,43 @@
 #include <cmath>
 
 namespace snug::shape {
-Spline::Spline(const unsigned int n, const unsigned int degree, const bool closed)
-  : size(n), p(degree), closed(closed)
+namespace {
+std::vector<double> uniform_breaks(const unsigned int n_spans)
 {
-  Assert(closed || degree < n, dealii::ExcMessage("A spline needs more points."));
+  std::vector<double> breaks;
+  for (unsigned int i = 0; i <= n_spans; ++i)
+    breaks.push_back(double(i) / n_spans);
+  return breaks;
+}
+} // namespace
+
+Spline::Spline(const unsigned int n, const unsigned int degree, const bool closed)
+  : Spline(uniform_breaks(closed ? n : n - degree), degree, closed)
+{
+  // Otherwise uniform closed spline i is symmetric about (i - (degree - 1) / 2) / n.
+  shift = closed ? (degree - 1.) / (2. * n) : 0.;
+}
+
+Spline::Spline(const std::vector<double> &breaks, const unsigned int degree, const bool closed)
+  : size(breaks.size() - 1 + (closed ? 0 : degree)), p(degree), closed(closed)
+{
+  Assert(breaks.size() > 1 && breaks.front() == 0. && breaks.back() == 1.,
+         dealii::ExcMessage("A spline needs spans from 0 to 1."));
   if (closed)
     {
-      for (unsigned int i = 0; i <= n + 2 * degree; ++i)
-        knots.push_back((double(i) - degree) / n);
+      const int n = size, degree_of_knots = degree;
+      for (int i = -degree_of_knots; i <= n + degree_of_knots; ++i)
+        {
+          const int period = i < 0 ? -((n - 1 - i) / n) : i / n;
+          knots.push_back(breaks[i - period * n] + period);
+        }
       return;
     }
   // The end knots are repeated degree + 1 times (clamped knots), so that only the end control
   // point acts at an end.
-  const unsigned int n_spans = n - degree;
-  knots.assign(degree + 1, 0.);
-  for (unsigned int i = 1; i < n_spans; ++i)
-    knots.push_back(double(i) / n_spans);
-  knots.insert(knots.end(), degree + 1, 1.);
+  knots.assign(degree, 0.);
+  knots.insert(knots.end(), breaks.begin(), breaks.end());
+  knots.insert(knots.end(), degree, 1.);
 }
 
 /// The recurrence of Cox and de Boor is applied to all p + 1 nonzero splines at once, in
@@ -33,8 +53,7 @@ std::pair<unsigned int, std::vector<double>> Spline::values(double s) const
 {
   if (closed)
     {
-      // Spline i on the closed knots is symmetric about (i - (p - 1) / 2) / n.
-      s -= (p - 1.) / (2. * size);
+      s -= shift;
       s -= std::floor(s);
     }
   // The span satisfies knots[span] <= s < knots[span + 1]. The last span contains s = 1.
@@ -62,14 +81,14 @@ std::pair<unsigned int, std::vector<double>> Spline::values(double s) const
 /// For degree 0 the result is the middle of the span, because there is no inner knot.
 double Spline::greville(const unsigned int i) const
 {
-  if (closed)
+  if (shift != 0.) // without round-off
     return double(i) / size;
   if (p == 0)
     return (knots[i] + knots[i + 1]) / 2.;
   double sum = 0.;
   for (unsigned int k = 1; k <= p; ++k)
     sum += knots[i + k];
-  return sum / p;
+  return sum / p - (closed ? std::floor(sum / p) : 0.);
 }
 
 /// The derivative of sum_i c_i B_i^p is sum_i p (c_(i+1) - c_i) / (t_(i+p+1) - t_(i+1)) B_i^(p-1)

@@ -105,6 +105,14 @@ struct Summary
     double      value = none, error = none;
   };
 
+  /// A face of profile.step.
+  struct ProfileFace
+  {
+    std::string               name;
+    std::vector<unsigned int> spans;                          ///< of B-splines, per direction
+    double                    deviation = none, asked = none; ///< maximum [length]
+  };
+
   /// One of the meshes refined for a target.
   struct AdaptedMesh
   {
@@ -157,6 +165,7 @@ struct Summary
   /// {quantity, unit} for "length", "force", "stress" and the responses; empty without 'Units'
   std::vector<std::pair<std::string, std::string>> units;
   std::optional<Adaptation>                        accuracy; ///< adaptation to a target
+  std::vector<ProfileFace>                         profile;  ///< faces of profile.step
 
   /// advice, if the user asked for it
   std::optional<std::vector<advice::Advice>> advice;

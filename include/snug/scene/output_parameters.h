@@ -24,6 +24,8 @@ struct OutputParameters
   unsigned int             ranks_per_file = 16; ///< number of ranks that share a file of the fields
   bool                     export_qp      = false;
   std::vector<std::string> meshes; ///< formats of files of the bodies: msh, inp
+  /// maximum deviation of profile.step from the design, relative to the size of a face; 0: no file
+  double profile_deviation = 1e-6;
 
   bool has(const std::string &field) const;
 

@@ -18,17 +18,25 @@ using Combination = std::map<unsigned int, double>;
  * spline differs from zero, and at s = 1 only the last spline. With n = p + 1, a single span,
  * the splines are the Bernstein polynomials of degree p.
  *
- * Closed splines have the period 1 and uniform knots of the distance 1/n. Closed spline i is
+ * Closed splines have the period 1. With uniform knots of the distance 1/n, closed spline i is
  * symmetric about i/n, so that a shift of s by 1/n renumbers the splines.
  */
 class Spline
 {
 public:
-  /// Construct the knots. @p degree < @p n.
+  /// Construct uniform knots. @p degree < @p n.
   Spline(unsigned int n, unsigned int degree, bool closed = false);
+
+  /// Construct splines on spans between the numbers @p breaks, which ascend from 0 to 1. Closed
+  /// spline i differs from zero from breaks i - degree to i + 1.
+  Spline(const std::vector<double> &breaks, unsigned int degree, bool closed = false);
 
   unsigned int n() const { return size; }
   unsigned int degree() const { return p; }
+  bool         is_closed() const { return closed; }
+
+  /// Return the ends of the spans, from 0 to 1.
+  std::vector<double> breaks() const { return {knots.begin() + p, knots.end() - p}; }
 
   /// Return the values at @p s in [0,1] of the degree + 1 consecutive splines that begin with
   /// number .first. All other splines are zero at @p s. The numbers of closed splines are taken
@@ -47,6 +55,7 @@ public:
 private:
   unsigned int        size, p;
   bool                closed;
+  double              shift = 0.; ///< s of the knot 0
   std::vector<double> knots;
 };
 
