@@ -31,30 +31,11 @@ void remove_earlier_results(const RunContext &context, const scene::Scene &scene
   io::remove_results(context, output_directories(scene));
 }
 
-namespace {
-/// Add the names of the units, if they have names.
-void add_units(const scene::Scene &scene, io::Summary &summary)
-{
-  const Units units(scene.units);
-  if (!units.are_named())
-    return;
-  summary.units  = {{"length", units.name("length")},
-                    {"force", units.name("force")},
-                    {"stress", units.name("force/length^2")}};
-  const auto add = [&](const std::string &response) {
-    summary.units.emplace_back(response, trim(scene::unit_after_number(scene, response)));
-  };
-  add(scene.optimization.objective);
-  for (const auto &response : scene.responses)
-    add(response.name);
-}
-} // namespace
-
 template <int dim>
 Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 {
-  summary.task = to_text(of.scene.task);
-  add_units(of.scene, summary);
+  summary.task  = to_text(of.scene.task);
+  summary.units = io::summarize_units(of.scene);
   std::vector<std::string> body_names;
   for (const auto &body : of.scene.bodies)
     body_names.push_back(body.name);

@@ -45,7 +45,8 @@ namespace snug::io {
  * which other rows act (mortar). At all other nodes they are 0. A node of several pairs has one
  * point in each pair. In the table a row has the pair with the maximum share in the row.
  * The table also has the unit outward normals of the slave side and, in 2D, arc_length, the length
- * along the undeformed boundary from its begin. Its rows are sorted by pair and along the boundaries.
+ * along the undeformed boundary from its begin. Its rows are sorted by pair and along the
+ * boundaries.
  */
 template <int dim>
 class ContactOutput

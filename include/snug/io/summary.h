@@ -15,6 +15,10 @@
 #include <utility>
 #include <vector>
 
+namespace snug::scene {
+struct Scene;
+} // namespace snug::scene
+
 namespace snug::io {
 /**
  * The numbers of a run, as written to summary.json. Other tools read that file. The members down
@@ -189,6 +193,9 @@ std::string blas_name(const std::string &file, const std::string &openblas_confi
 
 /// Return one line of advice if the BLAS is the reference BLAS; else empty.
 std::string blas_warning(const Summary::Program &program);
+
+/// Return the member units.
+std::vector<std::pair<std::string, std::string>> summarize_units(const scene::Scene &scene);
 
 /// Return all members of Mesh except dual_rows, contact_rows and kernel_dimension.
 template <int dim>
