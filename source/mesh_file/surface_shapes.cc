@@ -280,7 +280,7 @@ SurfaceShapes<dim>::exact_shape(const std::vector<unsigned int> &part)
         surfaces.push_back(points.oriented(*face.known));
     }
   else
-    result.known_index = recognized(points, 1e-6 * size, names[facet.boundary]);
+    result.known_index = recognized(points, 1e-6 * size, names[facet.boundary], 0.);
   result.kind       = result.known_index == none ? Kind::exact : Kind::known;
   result.projection = face.projection;
   return result;
