@@ -22,7 +22,7 @@
 
 namespace snug::cad {
 namespace {
-/// What the first rank sends to all ranks.
+/// This struct stores the data that the first rank sends to all ranks.
 struct MeshedPart
 {
   std::string                         brep, mesh;

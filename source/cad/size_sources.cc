@@ -114,7 +114,7 @@ std::vector<SizeSource> size_sources(const Part                          &part,
       const double curved =
         part.dim == 2 ? curvature(TopoDS::Edge(faces[f])) : curvature(TopoDS::Face(faces[f]));
       const double size = given != sizes.end()     ? given->second
-                          : curved * largest > 0.8 ? std::max(0.8 / curved, 0.1 * largest)
+                          : curved * largest > 0.5 ? std::max(0.5 / curved, 0.1 * largest)
                                                    : largest;
       if (size >= largest)
         continue;

@@ -121,7 +121,7 @@ void declare_cad(Entries &entries, BodyMeshParameters &mesh)
   entries.add(
     "Element size", mesh.element_size,
     "The length of the edges of the elements of a CAD file. Faces with a radius of curvature R "
-    "have elements of 0.8 R, but at least a tenth of this size. Units: length, before 'Scale'.");
+    "have elements of R/2, but at least a tenth of this size. Units: length, before 'Scale'.");
   entries.add("Face sizes", mesh.face_sizes, allowed("a list 'boundary: size, boundary: size'"),
               "The size of the elements on boundaries of a CAD file: 'race: 0.1, bore: 0.5'. "
               "Units: length, before 'Scale'.");

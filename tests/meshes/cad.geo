@@ -4,7 +4,7 @@ SetFactory("OpenCASCADE");
 
 // A pin with a fillet, and a prism.
 Cylinder(1) = {0, 0, 0, 0, 0, 2, 0.5};
-Fillet{1}{1}{0.1}
+Fillet{1}{1}{0.2}
 Box(2) = {2, 0, 0, 1, 1, 0.5};
 Save "pins.step";
 Save "pins.brep";

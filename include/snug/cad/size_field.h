@@ -17,8 +17,8 @@ struct SizeSource
 
 /**
  * Return points on the faces of a part at distances of half of the element size of each face. The
- * element size of a face is the entry of @p sizes for its boundary, or 0.8 of the minimum radius
- * of curvature of the face (45 degrees), but at least a tenth of @p largest. Faces with sizes of @p
+ * element size of a face is the entry of @p sizes for its boundary, or half of the minimum radius
+ * of curvature of the face (30 degrees), but at least a tenth of @p largest. Faces with sizes of @p
  * largest or more have no points.
  */
 std::vector<SizeSource> size_sources(const Part                          &part,
