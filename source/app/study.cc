@@ -10,6 +10,7 @@
 #include <snug/feti/sparse_factor.h>
 #include <snug/io/summary.h>
 #include <snug/io/text_file.h>
+#include <snug/mesh_file/deck_text.h>
 #include <snug/scene/read_scene.h>
 #include <snug/state/symmetry_planes.h>
 
@@ -317,6 +318,10 @@ std::vector<std::string> translate_deck(scene::SceneSource &source, const bool m
     }
   try
     {
+      const auto directory = std::filesystem::path(source.file).parent_path();
+      source.text = mesh_file::with_includes(source.text, [&](const std::string &included) {
+        return source.read_file((directory / included).string());
+      });
       const auto translation =
         deck::translate(source.text, std::filesystem::path(source.file).filename().string());
       source.text = translation.text;

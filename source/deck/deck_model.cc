@@ -7,6 +7,7 @@ namespace snug::deck {
 namespace {
 using mesh_file::error_at_line;
 using mesh_file::Keyword;
+using mesh_file::keyword_error;
 using mesh_file::to_number;
 using mesh_file::to_whole;
 using mesh_file::upper_case;
@@ -17,6 +18,12 @@ const std::set<std::string> read_elsewhere = {"HEADING",  "NODE",        "ELEMEN
                                               "NSET",     "SURFACE",     "PART",     "ENDPART",
                                               "ASSEMBLY", "ENDASSEMBLY", "INSTANCE", "ENDINSTANCE",
                                               "ENDSTEP",  "STATIC",      "PREPRINT"};
+
+/// Return the title of a keyword, with the name of an included file.
+std::string title_of(const Keyword &keyword)
+{
+  return keyword.title + (keyword.file.empty() ? "" : " in '" + keyword.file + "'");
+}
 
 /// This class reads the keywords one by one.
 class ModelReader
@@ -42,7 +49,7 @@ public:
         if (keyword.name == "ELEMENT")
           read_family(keyword);
         if (step > 1 && keyword.name != "ENDSTEP")
-          left_out.add(keyword.title + " of a step after the first", keyword.line);
+          left_out.add(title_of(keyword) + " of a step after the first", keyword.line);
         else if (read_elsewhere.count(keyword.name) == 0)
           read_keyword(keyword);
       }
@@ -113,10 +120,10 @@ private:
       {"CONTACTPAIR", {&M::read_contact, {"INTERACTION", "TYPE", "SMALLSLIDING"}}}};
     const auto found = readings.find(keyword.name);
     if (found == readings.end())
-      return left_out.add(keyword.title, keyword.line);
+      return left_out.add(title_of(keyword), keyword.line);
     for (const auto &[option, value] : keyword.options)
       if (found->second.options.count(option) == 0 && upper_case(value) != "NO")
-        left_out.add(keyword.title + ": the option " + option, keyword.line);
+        left_out.add(title_of(keyword) + ": the option " + option, keyword.line);
     (this->*found->second.read)(keyword);
   }
 
@@ -137,7 +144,7 @@ private:
         for (const auto &word : words)
           numbers.push_back(word.empty() ? 0. : to_number(word, line));
       else
-        left_out.add(keyword.title + ": lines after the first", line);
+        left_out.add(title_of(keyword) + ": lines after the first", line);
     });
     return numbers;
   }
@@ -145,7 +152,7 @@ private:
   DeckModel::Material &material(const Keyword &keyword)
   {
     if (model.materials.empty())
-      throw error_at_line(keyword.line, keyword.title + " must follow *MATERIAL");
+      throw keyword_error(keyword, keyword.title + " must follow *MATERIAL");
     return model.materials.back();
   }
 
@@ -153,10 +160,10 @@ private:
   {
     const auto type = upper_case(keyword.option("TYPE"));
     if (!type.empty() && type.rfind("ISO", 0) != 0)
-      return left_out.add(keyword.title + " of type " + type, keyword.line);
+      return left_out.add(title_of(keyword) + " of type " + type, keyword.line);
     const auto numbers = first_line(keyword);
     if (numbers.size() < 2)
-      throw error_at_line(keyword.line, keyword.title + " must have a modulus and a ratio");
+      throw keyword_error(keyword, keyword.title + " must have a modulus and a ratio");
     material(keyword).youngs_modulus = numbers[0];
     material(keyword).poissons_ratio = numbers[1];
   }
@@ -190,16 +197,17 @@ private:
   bool has_faces(const Keyword &keyword, const std::string &set, const unsigned long line)
   {
     if (set.find_first_of(",:;=#\\+") != std::string::npos)
-      left_out.add(keyword.title + " of '" + set + "': the name must not contain , : ; = # \\ or +",
+      left_out.add(title_of(keyword) + " of '" + set +
+                     "': the name must not contain , : ; = # \\ or +",
                    line);
     else if (!bodies.use(set))
-      left_out.add(keyword.title +
+      left_out.add(title_of(keyword) +
                      " of nodes or sets without a face whose nodes are all in the set",
                    line);
     else
       {
         if (bodies.nodes_without_face(set) > 0)
-          left_out.add(keyword.title + ": nodes of '" + set +
+          left_out.add(title_of(keyword) + ": nodes of '" + set +
                          "' on no face whose nodes are all in the set",
                        line);
         return true;
@@ -281,7 +289,7 @@ private:
     text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       const auto type = words.size() > 2 ? upper_case(words[1]) : "";
       if (type != "P" && type != "TRVEC")
-        return left_out.add(keyword.title + " of type '" + type + "'", line);
+        return left_out.add(title_of(keyword) + " of type '" + type + "'", line);
       const auto set = surface(words[0], line);
       if (!has_faces(keyword, set, line))
         return;
@@ -310,7 +318,7 @@ private:
           model.gravities.push_back(gravity);
         }
       else if (listed == sets.of_lines.end())
-        left_out.add(keyword.title + " of type '" + type + "'", line);
+        left_out.add(title_of(keyword) + " of type '" + type + "'", line);
       else if (has_faces(keyword, listed->second, line))
         {
           // The lines of one boundary have the same pressure.
@@ -332,13 +340,13 @@ private:
   {
     const auto law = upper_case(keyword.option("PRESSURE-OVERCLOSURE"));
     if (!law.empty() && law != "HARD")
-      left_out.add(keyword.title + " " + law + ": contact is hard", keyword.line);
+      left_out.add(title_of(keyword) + " " + law + ": contact is hard", keyword.line);
   }
 
   void read_point_load(const Keyword &keyword)
   {
     text.for_each_line(keyword, [&](const Words & /*words*/, const unsigned long line) {
-      left_out.add(keyword.title, line);
+      left_out.add(title_of(keyword), line);
     });
   }
 
@@ -348,7 +356,7 @@ private:
     if (!numbers.empty())
       model.friction[interaction] = numbers[0];
     if (numbers.size() > 1)
-      left_out.add(keyword.title + ": numbers after the coefficient", keyword.line);
+      left_out.add(title_of(keyword) + ": numbers after the coefficient", keyword.line);
   }
 
   /// Read a line "slave surface, master surface".
@@ -356,17 +364,17 @@ private:
   {
     text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (words.size() < 2)
-        return left_out.add(keyword.title + " of a surface with itself", line);
+        return left_out.add(title_of(keyword) + " of a surface with itself", line);
       if (upper_case(keyword.option("TYPE")) == "TIED")
-        return left_out.add(keyword.title + " of type TIED", line);
+        return left_out.add(title_of(keyword) + " of type TIED", line);
       const auto slave = surface(words[0], line), master = surface(words[1], line);
       if (!has_faces(keyword, slave, line) || !has_faces(keyword, master, line))
         return;
       const auto of_slave = bodies.bodies_of(slave), of_master = bodies.bodies_of(master);
       if (of_slave.size() > 1 || of_master.size() > 1)
-        left_out.add(keyword.title + " of a surface on several bodies", line);
+        left_out.add(title_of(keyword) + " of a surface on several bodies", line);
       else if (of_slave == of_master)
-        left_out.add(keyword.title + " of a body with itself", line);
+        left_out.add(title_of(keyword) + " of a body with itself", line);
       else
         model.contacts.push_back({slave, master, upper_case(keyword.option("INTERACTION")), line});
     });

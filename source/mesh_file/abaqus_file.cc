@@ -28,7 +28,7 @@ public:
       else if (keywords[k].name == "PART" && has_instances)
         k = end_of(k, "ENDPART");
       else if (keywords[k].name == "PART" && ++n_parts > 1)
-        throw error_at_line(keywords[k].line,
+        throw keyword_error(keywords[k],
                             "the file has more than one part, but no *INSTANCE that places them");
       else
         read_keyword(keywords[k], "");
@@ -55,7 +55,7 @@ private:
     for (std::size_t e = k + 1; e < keywords.size(); ++e)
       if (keywords[e].name == end)
         return e;
-    throw error_at_line(keywords[k].line, keywords[k].title + " has no *END");
+    throw keyword_error(keywords[k], keywords[k].title + " has no *END");
   }
 
   /// Collect the parts, and the names of sets that occur in the assembly or in several instances.
@@ -97,10 +97,10 @@ private:
     const std::string name = keyword.option("NAME"), prefix = upper_case(name) + ".";
     const auto        part = parts.find(upper_case(keyword.option("PART")));
     if (part == parts.end())
-      throw error_at_line(keyword.line, "instance '" + name + "' has the part '" +
-                                          keyword.option("PART") + "', which does not exist");
+      throw keyword_error(keyword, "instance '" + name + "' has the part '" +
+                                     keyword.option("PART") + "', which does not exist");
     if (name.empty() || sets.scopes.count(prefix) > 0)
-      throw error_at_line(keyword.line, "instance '" + name + "' has no name or occurs twice");
+      throw keyword_error(keyword, "instance '" + name + "' has no name or occurs twice");
     sets.scopes[prefix].instance = name;
     sets.scopes[prefix].part     = part->first;
     sets.scopes[prefix].place    = instance_place(deck, keyword);
@@ -125,8 +125,8 @@ private:
     else if (others.count(keyword.name) > 0 || (data && keyword.has("INPUT")))
       what = keyword.title + (data ? " with INPUT" : "");
     if (!what.empty())
-      throw error_at_line(keyword.line, what + " is not supported; write all nodes and elements to "
-                                               "one file, in Cartesian coordinates");
+      throw keyword_error(keyword, what + " is not supported; write all nodes and elements to "
+                                          "one file, in Cartesian coordinates");
   }
 
   void read_keyword(const Keyword &keyword, const std::string &prefix)
@@ -240,8 +240,7 @@ private:
     if (keyword.has("INSTANCE"))
       scope = upper_case(keyword.option("INSTANCE")) + ".";
     if (sets.scopes.count(scope) == 0)
-      throw error_at_line(keyword.line,
-                          "there is no instance '" + keyword.option("INSTANCE") + "'");
+      throw keyword_error(keyword, "there is no instance '" + keyword.option("INSTANCE") + "'");
     if (!keyword.has("GENERATE"))
       {
         for (const auto &word : words)

@@ -129,8 +129,8 @@ void FaceNames::name_optional(const std::string &name)
       if (nodes.count(corner) > 0 && used.count(corner) == 0)
         of_body.insert(corner);
   if (!of_body.empty() && !used.empty())
-    notes.push_back(std::to_string(of_body.size()) + " nodes of the set '" + name +
-                    "' belong to no face whose nodes are all in the set");
+    notes.push_back(counted(of_body.size(), "node") + " of the set '" + name +
+                    "' on no face whose nodes are all in the set");
 }
 
 /// Throw unless the boundary set @p name has a face of the body.

@@ -1,4 +1,5 @@
 #include <snug/cad/import_cad.h>
+#include <snug/mesh_file/deck_text.h>
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/scene/cases.h>
 #include <snug/scene/check.h>
@@ -152,12 +153,16 @@ void complete(Scene &scene)
     obstacle.complete(scene.dimension);
 }
 
-/// Return the contents of a mesh file. @throws InputError naming the entry.
+/// Return the contents of a mesh file, with the files that it includes. @throws InputError naming
+/// the entry.
 std::string mesh_text(const SceneSource &source, const std::string &file)
 {
   try
     {
-      return source.read_file(file);
+      const auto directory = std::filesystem::path(file).parent_path();
+      return mesh_file::with_includes(source.read_file(file), [&](const std::string &included) {
+        return source.read_file((directory / included).string());
+      });
     }
   catch (const InputError &error)
     {

@@ -13,6 +13,7 @@ struct Keyword
   std::string                        name;    ///< in upper case, without * and blanks: SOLIDSECTION
   std::string                        title;   ///< as in the file, in upper case: *SOLID SECTION
   std::map<std::string, std::string> options; ///< keys in upper case, without blanks
+  std::string                        file;    ///< name of the included file, or ""
   unsigned long                      line;    ///< line of the keyword
   unsigned long                      data_line;  ///< line of the first data line
   std::size_t                        begin, end; ///< place of the data lines in the text
@@ -21,6 +22,18 @@ struct Keyword
   std::string option(const std::string &key) const;
   bool        has(const std::string &key) const { return options.count(key) > 0; }
 };
+
+/// Return the error "line 17: message" of a keyword, with the name of an included file in front.
+InputError keyword_error(const Keyword &keyword, const std::string &message);
+
+/**
+ * Return a deck in which the files of *INCLUDE stand in place of the keyword, between comments from
+ * which DeckText knows their names and lines. Other texts are returned as they are.
+ * @param[in] read Function that returns the content of a file, whose name is as in the deck.
+ * @throws InputError of @p read, and if files include each other.
+ */
+std::string with_includes(const std::string                                     &text,
+                          const std::function<std::string(const std::string &)> &read);
 
 /**
  * This class divides a deck of Abaqus or CalculiX (.inp) into keywords. A keyword line begins with
@@ -40,14 +53,15 @@ public:
   /// Function of the words between commas of a data line, without quotes, and of its line number.
   using ReadLine = std::function<void(const std::vector<std::string> &words, unsigned long line)>;
 
-  /// Call @p read for each data line of a keyword, without comments and empty lines.
+  /// Call @p read for each data line of a keyword, without comments and empty lines. The name of an
+  /// included file is put in front of errors.
   void for_each_line(const Keyword &keyword, const ReadLine &read) const;
 
 private:
   const std::string   &text;
   std::vector<Keyword> all;
 
-  void begin_keyword(std::string line, unsigned long number);
+  void begin_keyword(const std::string &line, unsigned long number);
 };
 
 std::string upper_case(std::string text);
