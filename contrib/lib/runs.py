@@ -51,7 +51,7 @@ def changed(path, entries):
     """Return the text of a parameter file of the repository with these entries at its end,
     from which mesh files are found in any directory."""
     path = ROOT / path
-    text = re.sub(r"(Mesh file\s*=\s*)", rf"\1{path.parent}/", path.read_text(encoding="utf-8"))
+    text = re.sub(r"(set File\s*=\s*)", rf"\1{path.parent}/", path.read_text(encoding="utf-8"))
     for name, value in entries.items():
         title, _, entry = name.rpartition("/")
         if title:

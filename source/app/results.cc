@@ -30,10 +30,30 @@ void remove_earlier_results(const RunContext &context, const scene::Scene &scene
   io::remove_results(context, output_directories(scene));
 }
 
+namespace {
+/// Add the names of the units, if they have names.
+void add_units(const scene::Scene &scene, io::Summary &summary)
+{
+  const Units units(scene.units);
+  if (!units.are_named())
+    return;
+  summary.units  = {{"length", units.name("length")},
+                    {"force", units.name("force")},
+                    {"stress", units.name("force/length^2")}};
+  const auto add = [&](const std::string &response) {
+    summary.units.emplace_back(response, trim(scene::unit_after_number(scene, response)));
+  };
+  add(scene.optimization.objective);
+  for (const auto &response : scene.responses)
+    add(response.name);
+}
+} // namespace
+
 template <int dim>
 Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 {
   summary.task = to_text(of.scene.task);
+  add_units(of.scene, summary);
   for (unsigned int c = 0; c < of.n_load_cases(); ++c)
     {
       const std::string directory = of.n_load_cases() == 1

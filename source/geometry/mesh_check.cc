@@ -32,7 +32,7 @@ void check_box(const SectionCheck &section, const BodyMeshParameters &mesh)
 void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, const double cells)
 {
   const bool file = mesh.source == Source::file;
-  require_coarse(section, cells, file ? "Mesh file" : "Cells",
+  require_coarse(section, cells, file ? "File" : "Cells",
                  file ? mesh.file : to_text(mesh.round_cells));
   // p4est can number at most 2^31 nodes.
   section.require(mesh.refinements < 30 &&

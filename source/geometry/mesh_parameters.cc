@@ -69,7 +69,7 @@ void declare_round(Entries &entries, BodyMeshParameters &mesh)
 
 void declare_file(Entries &entries, BodyMeshParameters &mesh)
 {
-  entries.add("Mesh file", mesh.file, allowed("the path of a file"),
+  entries.add("File", mesh.file, allowed("the path of a file"),
               "The mesh file, relative to the parameter file: Gmsh .msh 2 or 4.1, or Abaqus .inp. "
               "Triangles, tetrahedra and prisms are split into quadrilaterals and hexahedra. "
               "'meshio convert -o gmsh22 part.vtk part.msh' converts other formats.");

@@ -227,6 +227,8 @@ std::string Summary::json() const
     text["initial_state"] = *initial_state;
   for (const auto &load_case : load_cases)
     text["load_cases"].push_back(summary_part(load_case));
+  for (const auto &[quantity, unit] : units)
+    text["units"][quantity] = unit;
   if (advice)
     {
       text["advice"] = Json::array();

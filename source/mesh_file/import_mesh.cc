@@ -325,7 +325,7 @@ import_mesh(const std::string                  &text,
       const std::string message = printable(error.what());
       if (message.rfind("entry '", 0) == 0)
         throw InputError(message);
-      throw bad_entry("Mesh file", parameters.file, message);
+      throw bad_entry("File", parameters.file, message);
     }
 }
 } // namespace snug::mesh_file

@@ -161,6 +161,15 @@ const ChoiceTable<MakeResponse<dim>> &response_table()
   return table;
 }
 
+/// The meaning of a quantity gives its unit in the first brackets.
+template <int dim>
+std::string unit_of(const std::string &quantity)
+{
+  const std::string &meaning = choose(response_table<dim>(), quantity).meaning;
+  const auto         begin = meaning.find('['), end = meaning.find(']');
+  return begin == std::string::npos ? "" : meaning.substr(begin + 1, end - begin - 1);
+}
+
 template <int dim>
 std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameters)
 {
@@ -169,6 +178,8 @@ std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameter
 
 template const ChoiceTable<MakeResponse<2>> &response_table<2>();
 template std::unique_ptr<Response<2>>        make_response<2>(const ResponseParameters &);
+template std::string                         unit_of<2>(const std::string &);
+template std::string                         unit_of<3>(const std::string &);
 template const ChoiceTable<MakeResponse<3>> &response_table<3>();
 template std::unique_ptr<Response<3>>        make_response<3>(const ResponseParameters &);
 } // namespace snug::response

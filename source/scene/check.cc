@@ -39,6 +39,10 @@ void check_model(const Scene &scene, const SectionCheck &top)
                                      "axisymmetric for Dimension = 2");
   top.require(plane || scene.thickness == 1., "Thickness", to_text(scene.thickness),
               "must be left out for Model = " + to_text(scene.model));
+  const bool no_names = scene.units.empty();
+  top.require(no_names || (scene.units.size() == 2 && !scene.units[0].empty() &&
+                           !scene.units[1].empty() && scene.units[0] != scene.units[1]),
+              "Units", to_text(scene.units), "must be two different names, 'length, force'");
   top.require(!scene.output_directory.empty(), "Output directory", "", "must not be empty");
 }
 

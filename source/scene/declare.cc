@@ -26,6 +26,10 @@ void declare_general(Entries &entries, Scene &scene)
     "Thickness", scene.thickness, positive(),
     "The thickness to which forces, energies and volumes of plane strain and plane stress "
     "models refer. Units: length.");
+  entries.add("Units", scene.units, allowed("a list 'length, force'"),
+              "The names of the units of length and force, for the log, summary.json and pictures: "
+              "'mm, N' gives stresses in MPa. Numbers are never converted. An empty list means "
+              "results without units.");
   add_names(entries, "Bodies", scene.bodies,
             "The names of the bodies. Each body has a subsection Body NAME.");
   add_names(entries, "Materials", scene.materials,

@@ -159,7 +159,7 @@ std::string mesh_text(const SceneSource &source, const std::string &file)
     }
   catch (const InputError &error)
     {
-      throw bad_entry("Mesh file", file, error.what());
+      throw bad_entry("File", file, error.what());
     }
 }
 
@@ -175,7 +175,7 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
       for (const auto &[region, material] : body.materials)
         mesh.named_regions.push_back(region);
       const SectionCheck section(body.section(), origins, scene.dimension);
-      section.require(!mesh.file.empty() && source.read_file, "Mesh file", mesh.file,
+      section.require(!mesh.file.empty() && source.read_file, "File", mesh.file,
                       "must be a mesh file");
       try
         {

@@ -178,18 +178,18 @@ def check_mesh_files(runner):
     for title, mesh, entries, names in cases:
         path = runner.folder / (title.replace(" ", "-") + ".msh")
         path.write_text(mesh, encoding="utf-8")
-        scene = mesh_scene(runner, title, {"Mesh file": path.name, **entries})
+        scene = mesh_scene(runner, title, {"File": path.name, **entries})
         place = [] if "Shift" in entries else [scene.name]
         if len(entries) == 0:
             place.append(path.name)
         runner.expect_error_of(title, [scene], [*place, *names])
         runner.expect_error(title, ["--validate", scene], names, ranks=3)
-    scene = mesh_scene(runner, "a mesh without end", {"Mesh file": "/dev/zero"})
+    scene = mesh_scene(runner, "a mesh without end", {"File": "/dev/zero"})
     runner.expect_error_of("mesh of a device", [scene],
                            [scene.name, "/dev/zero", "must be a regular file"])
     runner.expect_error("parameters without end", ["/dev/zero"],
                         ["/dev/zero", "more than 16 MB"], ranks=3)
-    scene = mesh_scene(runner, "no such mesh", {"Mesh file": "nowhere.msh"})
+    scene = mesh_scene(runner, "no such mesh", {"File": "nowhere.msh"})
     runner.expect_error("missing mesh file", [scene],
                         [scene.name, "nowhere.msh"], ranks=3)
 

@@ -32,7 +32,7 @@ subsection Body upper
 end
 subsection Body lower
   set Mesh            = file
-  set Mesh file       = block.msh
+  set File            = block.msh
   set Young's modulus = 1000
   set Supports        = bottom: xy
 end

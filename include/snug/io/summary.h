@@ -154,7 +154,9 @@ struct Summary
   std::optional<State>        initial_state; ///< state of the first design
   std::vector<LoadCase>       load_cases;    ///< empty if there is only one load case
   std::vector<std::string>    warnings;
-  std::optional<Adaptation>   accuracy; ///< adaptation to a target
+  /// {quantity, unit} for "length", "force", "stress" and the responses; empty without 'Units'
+  std::vector<std::pair<std::string, std::string>> units;
+  std::optional<Adaptation>                        accuracy; ///< adaptation to a target
 
   /// advice, if the user asked for it
   std::optional<std::vector<advice::Advice>> advice;

@@ -2,6 +2,7 @@
 #define snug_scene_scene_h
 
 #include <snug/accuracy/accuracy_parameters.h>
+#include <snug/base/units.h>
 #include <snug/contact/pair.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/elasticity/material.h>
@@ -76,16 +77,17 @@ struct Body
  */
 struct Scene
 {
-  std::string                              file; ///< scene file, for messages
-  Task                                     task      = Task::state;
-  unsigned int                             dimension = 3;              ///< dimension of the meshes
-  std::optional<mesh::Idealization::Kind>  model;                      ///< none: by dimension
-  double                                   thickness             = 1.; ///< of plane models [length]
-  std::string                              output_directory      = "output";
-  unsigned int                             degree                = 1;  ///< of the elements, 1 or 2
-  double                                   least_scaled_jacobian = 0.; ///< minimum of all cells
-  std::vector<NamedMaterial>               materials;
-  std::vector<Body>                        bodies;
+  std::string                             file; ///< scene file, for messages
+  Task                                    task      = Task::state;
+  unsigned int                            dimension = 3;  ///< dimension of the meshes
+  std::optional<mesh::Idealization::Kind> model;          ///< none: by dimension
+  double                                  thickness = 1.; ///< of plane models [length]
+  std::vector<std::string>   units; ///< names of the units of length and force; or empty
+  std::string                output_directory      = "output";
+  unsigned int               degree                = 1;  ///< of the elements, 1 or 2
+  double                     least_scaled_jacobian = 0.; ///< minimum of all cells
+  std::vector<NamedMaterial> materials;
+  std::vector<Body>          bodies;
   std::vector<contact::ObstacleParameters> obstacles;
   std::vector<double>                      gravity; ///< [length / time^2]; empty: none
   /// empty: one load case, with the loads of the bodies alone
@@ -152,6 +154,10 @@ struct ConstraintName
 /// closing, and a name such as "worst of peak" into combination and response. All other names are
 /// the response.
 ConstraintName constraint_name(const Scene &scene, const std::string &name);
+
+/// Return the unit of a response that response_called() knows, with a blank before it; empty if
+/// 'Units' is empty or the response has no dimension.
+std::string unit_after_number(const Scene &scene, const std::string &response);
 
 /// Return the response called @p name: a response of the scene, or a quantity with all entries at
 /// their defaults; nothing for other names.
