@@ -43,6 +43,15 @@ std::vector<std::string> columns(const ShapeProblem<dim> &problem, const scene::
     names.push_back(name + ' ' + limit);
   return names;
 }
+
+/// Return the name of the constraint that the @p values of an infeasible design violate most. If
+/// they violate none, the design violates limits of its shape.
+template <int dim>
+std::string violated(const Evaluator<dim> &evaluator, const std::vector<double> &values)
+{
+  const auto name = evaluator.most_violated(values).second;
+  return name.empty() ? "limits of the shape" : name;
+}
 } // namespace
 
 template <int dim>
@@ -117,7 +126,7 @@ void Search<dim>::report(const Iteration &iteration, const OptimizationResult &b
   line.design               = iteration.x;
   line.values               = iteration.evaluation.reported;
   if (line.constraint_violation > problem.scene.optimization.constraint_tolerance)
-    line.violated = evaluator.most_violated(line.values).second;
+    line.violated = violated(evaluator, line.values);
   log(io::log_line(line));
   throw_collectively(problem.context.communicator(), [&]() {
     if (problem.context.rank() == 0)
@@ -183,7 +192,7 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
   };
   auto result = optimization::minimize_from_starts(journaled, parameters, hooks);
   if (result.constraint_violation > parameters.constraint_tolerance)
-    result.violated = evaluator.most_violated(result.evaluation.reported).second;
+    result.violated = violated(evaluator, result.evaluation.reported);
   result.iterations += before.iterations;
   result.evaluations += before.evaluations;
   if (before.evaluations > 0)

@@ -140,7 +140,8 @@ TEST(Limits, OfCurvatureCountFromTheFace)
       EXPECT_EQ(shapes.limits().size(), 3u);
       parameters.tool_radius = 0.;
       parameters.convex      = true;
-      for (const auto &limit : shape::Shapes<2>(mesh, {{"body"}}, {parameters}).limits())
+      const shape::Shapes<2> convex(mesh, {{"body"}}, {parameters});
+      for (const auto &limit : convex.limits())
         EXPECT_NEAR(excess(limit, design), k - 1. / radius, 2e-3);
     }
 }
