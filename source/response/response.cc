@@ -35,7 +35,8 @@ ChoiceTable<MakeResponse<dim>> body_responses()
      "'Moment' of the face is the only load.",
      rotation<dim>},
     {"reaction",
-     "component in space of the force that supports apply to the nodes of a face [force]",
+     "component in space of the force that supports and springs apply to the nodes of a face "
+     "[force]",
      reaction<dim>},
     {"reaction moment",
      "moment of these forces about the axis 'Component' through 'Point' in space [force length]",

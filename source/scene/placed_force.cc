@@ -2,6 +2,7 @@
 #include <snug/scene/placed_force.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -16,9 +17,18 @@ std::vector<double> vector_from(const std::string &text, const unsigned int dime
   std::vector<double> numbers;
   for (const auto &word : components(text))
     {
-      from_text(word, numbers.emplace_back());
+      double number = 0.;
+      try
+        {
+          from_text(word, number);
+        }
+      catch (const std::invalid_argument &)
+        {
+          number = std::numeric_limits<double>::quiet_NaN();
+        }
+      numbers.push_back(number);
       // The condition is written so that it excludes NaN.
-      if (!(std::abs(numbers.back()) <= largest_number))
+      if (!(std::abs(number) <= largest_number))
         throw std::invalid_argument("'" + word + "' must be a number up to " +
                                     to_text(largest_number));
     }

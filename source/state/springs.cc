@@ -188,7 +188,9 @@ SpringRow<dim> Springs<dim>::row(const Place &place, const dealii::Tensor<1, dim
   SpringRow<dim> result;
   result.scale = place.scale;
   for (const auto &[node, weight] : weights)
-    result.coefficients.emplace_back(surface.global_node(node), weight * q);
+    // A point at a node has zeros at the other nodes.
+    if (std::abs(weight) > 1e-12)
+      result.coefficients.emplace_back(surface.global_node(node), weight * q);
   return result;
 }
 
