@@ -177,6 +177,7 @@ def draw(name):
             print(target.relative_to(ROOT), f"{target.stat().st_size / 1024:.0f} kB", flush=True)
         return True
     # The comment of each of these scenes names its units.
-    done = run(f"prm/{picture.scene}.prm", ["Units=mm, N", *picture.entries], inspect=inspect)
+    done = run(f"prm/{picture.scene}.prm", ["Units=mm, N", *picture.entries],
+               timeout=3600, inspect=inspect)
     if not done.result:
         raise RunError(f"{picture.scene}: status {done.status}, {done.message}")
