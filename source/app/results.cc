@@ -4,10 +4,7 @@
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/io/mesh_export.h>
-#include <snug/io/profile.h>
 #include <snug/io/qp_export.h>
-#include <snug/io/shape_export.h>
-#include <snug/io/text_file.h>
 #include <snug/state/symmetry_planes.h>
 #include <snug/state/validity_checks.h>
 
@@ -311,35 +308,6 @@ void Results<dim>::advise(const States &states)
     }
   if (summary.advice->empty())
     out << "advice: none" << std::endl;
-}
-
-template <int dim>
-void Results<dim>::export_shape(const std::vector<double> &design)
-{
-  if (problem->shapes->n_variables() == 0)
-    return;
-  const RunContext::Timer  timer(problem->context, "output");
-  const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
-  const auto               positions = problem->positions(design);
-  const auto               at_faces  = faces.gather(positions);
-  const auto               whole     = io::gather_mesh<dim>(*problem->mesh, positions);
-  const auto               points    = problem->shapes->control_points(design);
-  throw_collectively(problem->context.communicator(), [&]() {
-    if (problem->context.rank() != 0)
-      return;
-    if constexpr (dim == 3)
-      io::write_surface(path("surface.stl"), faces, at_faces);
-    io::write_text_file(
-      path("profile.csv"),
-      io::profile_text(
-        faces, at_faces, problem->mesh->degree(),
-        [&](unsigned int body, unsigned int boundary) {
-          return io::boundary_name(*problem->mesh, problem->scene, body, boundary);
-        },
-        [&](unsigned int node) { return whole.number_of[faces.global_node(node)] + 1; }));
-    io::write_control_points(path("control-points.csv"), points);
-  });
-  export_profile(design);
 }
 
 /// Return the numbers of rows. Rows of gluing and supports, which all positions share, count once.

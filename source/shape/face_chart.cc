@@ -187,41 +187,48 @@ bool FaceChart<dim>::fills_rectangle() const
   return dim == 2 || loops().size() == (n_closed == dim - 1 ? 0 : 1 + n_closed);
 }
 
+/// Return the edges at the border: first node -> last node and the points from one to the other.
+/// Edges of the border belong to one face of the mesh, and other boundaries share their nodes. The
+/// second condition excludes edges with hanging nodes.
+template <int dim>
+typename FaceChart<dim>::Edges FaceChart<dim>::border_edges() const
+{
+  using Ends = std::pair<unsigned int, unsigned int>; // nodes
+  std::map<Ends, unsigned int> uses;
+  const auto                   ends_of = [&](const unsigned int f, const unsigned int side) {
+    const auto &nodes  = face.surface().faces()[f].nodes;
+    const auto  points = side_points(face.mesh().degree(), side);
+    return Ends(nodes[points.front()], nodes[points.back()]);
+  };
+  for (unsigned int f = 0; f < patches.size(); ++f)
+    for (unsigned int side = 0; side < 4; ++side)
+      {
+        const Ends ends = ends_of(f, side);
+        ++uses[std::minmax(ends.first, ends.second)];
+      }
+  Edges result;
+  for (unsigned int f = 0; f < patches.size(); ++f)
+    for (unsigned int side = 0; side < 4; ++side)
+      {
+        const Ends ends = ends_of(f, side);
+        if (uses[std::minmax(ends.first, ends.second)] > 1 || !face.border()[ends.first] ||
+            !face.border()[ends.second])
+          continue;
+        Piece piece;
+        for (const unsigned int k : side_points(patches[f].degree, side))
+          piece.push_back(patches[f].flat[k]);
+        result[ends.first] = {ends.second, piece};
+      }
+  return result;
+}
+
 template <int dim>
 std::vector<typename FaceChart<dim>::Loop> FaceChart<dim>::loops() const
 {
   std::vector<Loop> result;
   if constexpr (dim == 3)
     {
-      // Edges of the border belong to one face, and other boundaries share their nodes. The second
-      // condition excludes edges with hanging nodes.
-      using Edge = std::pair<unsigned int, unsigned int>; // nodes
-      std::map<Edge, unsigned int>                           uses;
-      std::map<unsigned int, std::pair<unsigned int, Piece>> next; // node -> node, points
-      const unsigned int                                     p = face.mesh().degree();
-      const auto edge_of = [&](const unsigned int f, const unsigned int side) {
-        const auto &nodes  = face.surface().faces()[f].nodes;
-        const auto  points = side_points(p, side);
-        return Edge(nodes[points.front()], nodes[points.back()]);
-      };
-      for (unsigned int f = 0; f < patches.size(); ++f)
-        for (unsigned int side = 0; side < 4; ++side)
-          {
-            const Edge edge = edge_of(f, side);
-            ++uses[std::minmax(edge.first, edge.second)];
-          }
-      for (unsigned int f = 0; f < patches.size(); ++f)
-        for (unsigned int side = 0; side < 4; ++side)
-          {
-            const Edge edge = edge_of(f, side);
-            if (uses[std::minmax(edge.first, edge.second)] > 1 || !face.border()[edge.first] ||
-                !face.border()[edge.second])
-              continue;
-            Piece piece;
-            for (const unsigned int k : side_points(patches[f].degree, side))
-              piece.push_back(patches[f].flat[k]);
-            next[edge.first] = {edge.second, piece};
-          }
+      auto next = border_edges();
       while (!next.empty())
         {
           const unsigned int first = next.begin()->first;
@@ -232,7 +239,6 @@ std::vector<typename FaceChart<dim>::Loop> FaceChart<dim>::loops() const
               if (found == next.end())
                 throw InputError("the edges of the mesh along its border do not form closed loops");
               const auto &piece = found->second.second;
-              // A loop around a closed coordinate ends one period from its beginning.
               points.insert(points.end(), piece.begin(), piece.end() - 1);
               node = found->second.first;
               next.erase(found);

@@ -26,6 +26,15 @@ struct SplineSurface
 
   dealii::Tensor<1, dim> value(const dealii::Tensor<1, dim - 1> &fractions) const;
 
+  unsigned int n_points() const;
+
+  /// Rows of a matrix of as many columns as control points.
+  using Rows = std::vector<std::vector<std::pair<unsigned int, double>>>;
+
+  /// Return the rows of the second differences of adjacent control points along each axis, divided
+  /// differences over the Greville abscissae.
+  Rows second_differences() const;
+
   unsigned int n_spans(unsigned int axis) const { return axes[axis].breaks().size() - 1; }
 };
 

@@ -4,6 +4,7 @@
 #include <snug/faces/face_shape.h>
 #include <snug/shape/face_coordinates.h>
 
+#include <map>
 #include <optional>
 
 namespace snug::shape {
@@ -86,7 +87,10 @@ private:
     double                           radius; ///< of a circle about the centre with all points
   };
 
+  using Edges = std::map<unsigned int, std::pair<unsigned int, Piece>>;
+
   std::optional<Place> find(const Flat &target, const Patch &patch, double &outside) const;
+  Edges                border_edges() const;
 
   const ShapedFace<dim>    &face;
   Flat                      ranges;

@@ -1,7 +1,10 @@
 #include <snug/app/results.h>
 #include <snug/cad/write_step.h>
 #include <snug/geometry/face_list.h>
+#include <snug/io/profile.h>
+#include <snug/io/shape_export.h>
 #include <snug/io/spline_surface.h>
+#include <snug/io/text_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,8 +105,8 @@ cad::SplineFace step_face(const io::SplineSurface<dim> &surface,
 
 /// Set the loops of a face that does not fill the rectangle of its coordinates.
 /// @throws InputError if the coordinates are closed.
-void trim(const shape::FaceChart<2> & /*chart*/, cad::SplineFace & /*face*/) {}
-void trim(const shape::FaceChart<3> &chart, cad::SplineFace &face)
+void add_loops(const shape::FaceChart<2> & /*chart*/, cad::SplineFace & /*face*/) {}
+void add_loops(const shape::FaceChart<3> &chart, cad::SplineFace &face)
 {
   if (chart.fills_rectangle())
     return;
@@ -135,6 +138,35 @@ double size_of(const std::vector<dealii::Tensor<1, dim>> &positions)
   return (upper - lower).norm();
 }
 } // namespace
+
+template <int dim>
+void Results<dim>::export_shape(const std::vector<double> &design)
+{
+  if (problem->shapes->n_variables() == 0)
+    return;
+  const RunContext::Timer  timer(problem->context, "output");
+  const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
+  const auto               positions = problem->positions(design);
+  const auto               at_faces  = faces.gather(positions);
+  const auto               whole     = io::gather_mesh<dim>(*problem->mesh, positions);
+  const auto               points    = problem->shapes->control_points(design);
+  throw_collectively(problem->context.communicator(), [&]() {
+    if (problem->context.rank() != 0)
+      return;
+    if constexpr (dim == 3)
+      io::write_surface(path("surface.stl"), faces, at_faces);
+    io::write_text_file(
+      path("profile.csv"),
+      io::profile_text(
+        faces, at_faces, problem->mesh->degree(),
+        [&](unsigned int body, unsigned int boundary) {
+          return io::boundary_name(*problem->mesh, problem->scene, body, boundary);
+        },
+        [&](unsigned int node) { return whole.number_of[faces.global_node(node)] + 1; }));
+    io::write_control_points(path("control-points.csv"), points);
+  });
+  export_profile(design);
+}
 
 template <int dim>
 void Results<dim>::export_profile(const std::vector<double> &design)
@@ -175,7 +207,7 @@ void Results<dim>::export_profile(const std::vector<double> &design)
           const auto surface = io::fit_splines(chart, at_points, asked, most_points);
           auto       of_file = step_face(surface, chart, mesh.idealization());
           of_file.name       = parameters.face;
-          trim(chart, of_file);
+          add_loops(chart, of_file);
           faces.push_back(of_file);
           io::Summary::ProfileFace summarized{parameters.face, {}, surface.deviation, asked};
           for (unsigned int a = 0; a < dim - 1; ++a)
@@ -226,6 +258,7 @@ void Results<dim>::report_profile(std::vector<std::string> lines)
 }
 
 #define SNUG_INSTANTIATE(dim)                                              \
+  template void Results<dim>::export_shape(const std::vector<double> &);   \
   template void Results<dim>::export_profile(const std::vector<double> &); \
   template void Results<dim>::report_profile(std::vector<std::string>);
 SNUG_INSTANTIATE(2)
