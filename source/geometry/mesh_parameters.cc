@@ -120,8 +120,9 @@ void declare_cad(Entries &entries, BodyMeshParameters &mesh)
     "name, in 2D edge-3.");
   entries.add(
     "Element size", mesh.element_size,
-    "The length of the edges of the elements of a CAD file. Faces with a radius of curvature R "
-    "have elements of R/2, but at least a tenth of this size. Units: length, before 'Scale'.");
+    "The length of the edges of the elements of a CAD file, which has no default. Faces with a "
+    "radius of curvature R have elements of R/2, but at least a tenth of this size. Units: length, "
+    "before 'Scale'.");
   entries.add("Face sizes", mesh.face_sizes, allowed("a list 'boundary: size, boundary: size'"),
               "The size of the elements on boundaries of a CAD file: 'race: 0.1, bore: 0.5'. "
               "Units: length, before 'Scale'.");
