@@ -1,9 +1,9 @@
 #include <snug/io/deck_mesh_text.h>
 #include <snug/io/mesh_export.h>
-#include <snug/io/text_file.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace snug::io {
 namespace {
@@ -88,18 +88,17 @@ private:
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       for (unsigned int r = 0; r < solver.model().bodies[b].materials.size(); ++r)
         {
-          const auto name = region_name(mesh, scene, b, r);
-          if (std::none_of(whole.cells.begin(), whole.cells.end(),
-                           [&](const auto &cell) { return cell.body == b && cell.region == r; }))
+          if (whole.regions.at(b).count(r) == 0)
             continue;
+          const auto  name     = deck_name(region_name(mesh, scene, whole, b, r));
           const auto &material = solver.model().bodies[b].materials[r];
-          out += "*MATERIAL, NAME=" + name + "\n*ELASTIC\n" + exact(material.youngs_modulus) +
-                 ", " + exact(material.poissons_ratio) + '\n';
+          out += "*MATERIAL, NAME=" + name + "\n*ELASTIC\n" + deck_real(material.youngs_modulus) +
+                 ", " + deck_real(material.poissons_ratio) + '\n';
           if (material.density > 0.)
-            out += "*DENSITY\n" + exact(material.density) + '\n';
+            out += "*DENSITY\n" + deck_real(material.density) + '\n';
           out += "*SOLID SECTION, ELSET=" + name + ", MATERIAL=" + name + '\n';
           if (dim == 2 && !mesh.idealization().is_axisymmetric())
-            out += exact(scene.thickness) + '\n';
+            out += deck_real(scene.thickness) + '\n';
         }
   }
 
@@ -129,7 +128,8 @@ private:
   std::string surface_of(const contact::Side &side, const std::string &name)
   {
     if (side.boundaries().size() == 1)
-      return boundary_name(mesh, scene, side.boundaries()[0].first, side.boundaries()[0].second);
+      return deck_name(
+        boundary_name(mesh, scene, side.boundaries()[0].first, side.boundaries()[0].second));
     const std::string sides[6] = {dim == 2 ? "S4" : "S6",
                                   dim == 2 ? "S2" : "S4",
                                   dim == 2 ? "S1" : "S3",
@@ -163,7 +163,7 @@ private:
                           master = surface_of(pair.master, "master-" + id);
         const double stiffness   = contact_penalty * modulus / face_size(pair.slave);
         out += "*SURFACE INTERACTION, NAME=contact-" + id +
-               "\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n" + exact(stiffness) + '\n';
+               "\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n" + deck_real(stiffness) + '\n';
         write_friction(pair, stiffness);
         out += "*CONTACT PAIR, INTERACTION=contact-" + id + ", TYPE=SURFACE TO SURFACE\n" + slave +
                ", " + master + '\n';
@@ -182,7 +182,7 @@ private:
       return left_out.push_back("friction of contact " + pair.name() +
                                 ", which has no constant coefficient");
     if (*coefficient > 0.)
-      out += "*FRICTION\n" + exact(*coefficient) + ", " + exact(stiffness) + '\n';
+      out += "*FRICTION\n" + deck_real(*coefficient) + ", " + deck_real(stiffness) + '\n';
   }
 
   /// The loads and prescribed displacements of the bodies and of the first load case, with the
@@ -208,8 +208,8 @@ private:
         for (const unsigned int c : scene::component_list(words, dim))
           {
             is_simple = is_simple && c < dim;
-            by_sets +=
-              body.name + '.' + boundary + ", " + deck_number(c) + ", " + deck_number(c) + '\n';
+            by_sets += deck_name(body.name + '.' + boundary) + ", " + deck_number(c) + ", " +
+                       deck_number(c) + '\n';
           }
     for (const auto &[prefix, loads] : load_parameters())
       for (const auto &[boundary, text] : loads->displacements)
@@ -218,8 +218,8 @@ private:
           const unsigned int c       = *scene::component_number(name, dim);
           const auto         value   = constant(formula);
           is_simple                  = is_simple && c < dim && value;
-          by_sets += prefix + boundary + ", " + deck_number(c) + ", " + deck_number(c) + ", " +
-                     exact(value.value_or(0.)) + '\n';
+          by_sets += deck_name(prefix + boundary) + ", " + deck_number(c) + ", " + deck_number(c) +
+                     ", " + deck_real(value.value_or(0.)) + '\n';
         }
     if (!is_simple)
       write_held_nodes();
@@ -227,45 +227,53 @@ private:
       out += "*BOUNDARY\n" + by_sets;
   }
 
-  void write_held_nodes()
+  /// Return the components of a direction that are not round-off, the largest one first, because
+  /// CalculiX eliminates the first term of an equation.
+  static std::vector<unsigned int> components_of(const dealii::Tensor<1, dim> &d)
   {
-    const auto &held = solver.held();
-    for (unsigned int global = 0; global < whole.number_of.size(); ++global)
-      {
-        const unsigned int index = held.find(global), node = whole.number_of[global];
-        if (index == held.n_nodes() || !mesh_text.has(node))
-          continue;
-        const auto &frame = frames[index];
-        for (unsigned int j = 0; j < frame.directions.size(); ++j)
-          write_held_direction(node, frame.directions[j], frame.values[j].front());
-      }
-  }
-
-  /// Write d.u = value at a node: *BOUNDARY along an axis, otherwise *EQUATION.
-  void
-  write_held_direction(const unsigned int node, const dealii::Tensor<1, dim> &d, const double value)
-  {
-    const double             round_off = 1e-12;
-    std::vector<std::string> items;
-    unsigned int             largest = 0;
-    for (unsigned int c = 0; c < dim; ++c)
-      if (std::abs(d[c]) > std::abs(d[largest]))
-        largest = c;
+    const double              round_off = 1e-12;
+    std::vector<unsigned int> components;
     for (unsigned int c = 0; c < dim; ++c)
       if (std::abs(d[c]) > round_off)
-        // CalculiX eliminates the first term of an equation.
-        items.insert(c == largest ? items.begin() : items.end(),
-                     deck_number(node) + ", " + deck_number(c) + ", " + exact(d[c]));
-    if (items.size() == 1)
-      {
-        out += "*BOUNDARY\n" + deck_number(node) + ", " + deck_number(largest) + ", " +
-               deck_number(largest) + ", " + exact(value / d[largest]) + '\n';
-        return;
-      }
-    out += deck_equation(items);
-    if (value != 0.)
-      left_out.push_back("prescribed displacement " + exact(value) +
-                         " along an oblique direction at node " + deck_number(node));
+        components.push_back(c);
+    std::sort(components.begin(), components.end(),
+              [&](const unsigned int a, const unsigned int b) {
+                return std::abs(d[a]) > std::abs(d[b]);
+              });
+    return components;
+  }
+
+  /// Write d.u = value at each held node: *BOUNDARY along axes, otherwise *EQUATION.
+  void write_held_nodes()
+  {
+    const auto                          &held = solver.held();
+    std::map<unsigned int, unsigned int> nodes; // node -> held node
+    for (unsigned int global = 0; global < whole.number_of.size(); ++global)
+      if (held.find(global) < held.n_nodes() && mesh_text.has(whole.number_of[global]))
+        nodes[whole.number_of[global]] = held.find(global);
+    std::string along_axes, equations;
+    for (const auto &[node, index] : nodes)
+      for (unsigned int j = 0; j < frames[index].directions.size(); ++j)
+        {
+          const auto  &d     = frames[index].directions[j];
+          const double value = frames[index].values[j].front();
+          const auto   terms = components_of(d);
+          if (terms.size() == 1)
+            {
+              const auto c = deck_number(terms[0]);
+              along_axes += deck_number(node) + ", " + c + ", " + c + ", " +
+                            deck_real(value / d[terms[0]]) + '\n';
+              continue;
+            }
+          std::vector<std::string> items;
+          for (const unsigned int c : terms)
+            items.push_back(deck_number(node) + ", " + deck_number(c) + ", " + deck_real(d[c]));
+          equations += deck_equation(items);
+          if (value != 0.)
+            left_out.push_back("prescribed displacement " + deck_real(value) +
+                               " along an oblique direction at node " + deck_number(node));
+        }
+    out += equations + (along_axes.empty() ? "" : "*BOUNDARY\n" + along_axes);
   }
 
   /// Return constant pressures and gravity as text; nothing if there are other loads.
@@ -281,7 +289,7 @@ private:
             const auto value = constant(formula);
             if (!value)
               return {};
-            text += "*DSLOAD\n" + prefix + boundary + ", P, " + exact(*value) + '\n';
+            text += "*DSLOAD\n" + deck_name(prefix + boundary) + ", P, " + deck_real(*value) + '\n';
           }
       }
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
@@ -291,9 +299,10 @@ private:
         const auto &gravity = solver.model().load_cases.front().bodies[b].gravity;
         if (gravity.norm() == 0.)
           continue;
-        text += "*DLOAD\n" + scene.bodies[b].name + ", GRAV, " + exact(gravity.norm());
+        text +=
+          "*DLOAD\n" + deck_name(scene.bodies[b].name) + ", GRAV, " + deck_real(gravity.norm());
         for (unsigned int c = 0; c < 3; ++c)
-          text += ", " + exact(c < dim ? gravity[c] / gravity.norm() : 0.);
+          text += ", " + deck_real(c < dim ? gravity[c] / gravity.norm() : 0.);
         text += '\n';
       }
     return text;
@@ -313,8 +322,8 @@ private:
     for (const unsigned int node : mesh_text.used_nodes())
       for (unsigned int c = 0; c < dim; ++c)
         if (whole.forces[node][c] != 0.)
-          out +=
-            deck_number(node) + ", " + deck_number(c) + ", " + exact(whole.forces[node][c]) + '\n';
+          out += deck_number(node) + ", " + deck_number(c) + ", " +
+                 deck_real(whole.forces[node][c]) + '\n';
   }
 };
 } // namespace

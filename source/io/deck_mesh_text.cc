@@ -1,8 +1,9 @@
 #include <snug/io/deck_mesh_text.h>
 #include <snug/io/element_nodes.h>
 #include <snug/io/mesh_export.h>
-#include <snug/io/text_file.h>
 
+#include <cctype>
+#include <cstdio>
 #include <map>
 
 namespace snug::io {
@@ -16,6 +17,25 @@ std::string list_text(const std::vector<std::string> &items, const std::size_t p
   return text;
 }
 } // namespace
+
+std::string deck_real(const double x)
+{
+  const std::size_t longest  = 20;
+  const std::string shortest = to_text(x + 0.); // no -0
+  if (shortest.size() <= longest)
+    return shortest;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.13e", x);
+  return text;
+}
+
+std::string deck_name(std::string name)
+{
+  for (char &c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_')
+      c = '-';
+  return name;
+}
 
 std::string deck_equation(const std::vector<std::string> &items)
 {
@@ -45,14 +65,14 @@ std::string DeckMeshText<dim>::nodes() const
     {
       text += deck_number(node);
       for (unsigned int c = 0; c < 3; ++c)
-        text += ", " + exact(c < dim ? whole.positions[node][c] : 0.);
+        text += ", " + deck_real(c < dim ? whole.positions[node][c] : 0.);
       text += '\n';
     }
   for (const auto &hanging : whole.hanging)
     for (unsigned int c = 0; c < dim && has(hanging.node); ++c)
       {
         const auto term = [c](const unsigned int node, const double weight) {
-          return deck_number(node) + ", " + deck_number(c) + ", " + exact(weight);
+          return deck_number(node) + ", " + deck_number(c) + ", " + deck_real(weight);
         };
         std::vector<std::string> items = {term(hanging.node, -1.)};
         for (const auto &[master, weight] : hanging.masters)
@@ -84,7 +104,7 @@ std::string DeckMeshText<dim>::elements() const
   for (unsigned int c = 0; c < whole.cells.size(); ++c)
     {
       const auto &cell = whole.cells[c];
-      const auto  name = region_name(mesh, scene, cell.body, cell.region);
+      const auto  name = deck_name(region_name(mesh, scene, whole, cell.body, cell.region));
       if (!previous || previous->body != cell.body || previous->region != cell.region)
         text += "*ELEMENT, TYPE=" + element_type() + ", ELSET=" + name + '\n';
       previous                       = &cell;
@@ -93,8 +113,8 @@ std::string DeckMeshText<dim>::elements() const
         items.push_back(deck_number(node));
       // At most 16 numbers fit on a line.
       text += list_text(items, 15);
-      if (name != scene.bodies[cell.body].name)
-        of_bodies[scene.bodies[cell.body].name].push_back(deck_number(c));
+      if (whole.regions.at(cell.body).size() > 1)
+        of_bodies[deck_name(scene.bodies[cell.body].name)].push_back(deck_number(c));
     }
   for (const auto &[body, elements] : of_bodies)
     text += "*ELSET, ELSET=" + body + '\n' + list_text(elements, 15);
@@ -114,13 +134,17 @@ std::string DeckMeshText<dim>::side(const typename WholeMesh<dim>::Face &face) c
 template <int dim>
 std::string DeckMeshText<dim>::sets() const
 {
+  // CalculiX accepts no node in *BOUNDARY that *EQUATION eliminates.
+  std::set<unsigned int> eliminated;
+  for (const auto &hanging : whole.hanging)
+    eliminated.insert(hanging.node);
   std::map<std::string, std::set<unsigned int>> nodes;
   std::map<std::string, std::string>            faces;
   for (const auto &face : whole.faces)
     {
-      const auto name = boundary_name(mesh, scene, face.body, face.boundary);
+      const auto name = deck_name(boundary_name(mesh, scene, face.body, face.boundary));
       for (const unsigned int node : face.nodes)
-        if (has(node))
+        if (has(node) && eliminated.count(node) == 0)
           nodes[name].insert(node);
       faces[name] += side(face);
     }

@@ -17,11 +17,14 @@ std::string boundary_name(const mesh::BodyMesh<dim> &mesh,
 template <int dim>
 std::string region_name(const mesh::BodyMesh<dim> &mesh,
                         const scene::Scene        &scene,
+                        const WholeMesh<dim>      &whole,
                         const unsigned int         body,
                         const unsigned int         region)
 {
-  const auto regions = mesh.geometry(body).region_names();
-  return scene.bodies[body].name + (regions.size() == 1 ? "" : '.' + regions[region]);
+  const auto &name = scene.bodies[body].name;
+  return whole.regions.at(body).size() == 1
+           ? name
+           : name + '.' + mesh.geometry(body).region_names()[region];
 }
 
 namespace {
@@ -61,7 +64,7 @@ msh_text(const mesh::BodyMesh<dim> &mesh, const scene::Scene &scene, const Whole
                              in_order(face.nodes, face_order));
   for (const auto &cell : whole.cells)
     elements += element_line(++n, types[dim - 1][degree - 1],
-                             tag(dim, region_name(mesh, scene, cell.body, cell.region)),
+                             tag(dim, region_name(mesh, scene, whole, cell.body, cell.region)),
                              in_order(cell.nodes, cell_order));
   std::string text =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(tags.size()) + '\n';
@@ -83,7 +86,7 @@ msh_text(const mesh::BodyMesh<dim> &mesh, const scene::Scene &scene, const Whole
   template std::string boundary_name(const mesh::BodyMesh<dim> &, const scene::Scene &, \
                                      unsigned int, unsigned int);                       \
   template std::string region_name(const mesh::BodyMesh<dim> &, const scene::Scene &,   \
-                                   unsigned int, unsigned int);                         \
+                                   const WholeMesh<dim> &, unsigned int, unsigned int); \
   template std::string msh_text(const mesh::BodyMesh<dim> &, const scene::Scene &,      \
                                 const WholeMesh<dim> &);
 SNUG_INSTANTIATE(2)

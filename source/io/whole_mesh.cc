@@ -91,6 +91,7 @@ void add_cells(const std::vector<Integers> &records,
       const unsigned int body = record.next();
       record.next(id_length);
       const unsigned int region = record.next();
+      whole.regions[body].insert(region);
       whole.cells.push_back({body, region, renumber(record.next(on_face * (degree + 1)))});
       while (!record.at_end())
         {

@@ -13,6 +13,14 @@ inline std::string deck_number(const unsigned int index)
   return std::to_string(index + 1);
 }
 
+/// Return @p x with at most 20 characters, which CalculiX reads: exactly if these suffice,
+/// otherwise with 14 digits.
+std::string deck_real(double x);
+
+/// Return a name with - in place of the characters other than letters, digits, . and _, because
+/// CalculiX ignores blanks and separates by commas.
+std::string deck_name(std::string name);
+
 /// Return the lines of *EQUATION: sum_i weight_i u_i = 0, with items "node, component, weight".
 std::string deck_equation(const std::vector<std::string> &items);
 
@@ -34,7 +42,7 @@ public:
   std::string nodes() const;
   /// Return *ELEMENT of each region, and the element sets of bodies with several regions.
   std::string elements() const;
-  /// Return a node set and a surface of element faces for each boundary.
+  /// Return a node set, without hanging nodes, and a surface of element faces for each boundary.
   std::string sets() const;
   /// Return the line "element, S3" of a surface.
   std::string side(const typename WholeMesh<dim>::Face &face) const;

@@ -14,10 +14,11 @@ std::string boundary_name(const mesh::BodyMesh<dim> &mesh,
                           unsigned int               boundary);
 
 /// Return the name of the cells of a region of a body: "body", or "body.region" if the body has
-/// several regions.
+/// cells of several regions.
 template <int dim>
 std::string region_name(const mesh::BodyMesh<dim> &mesh,
                         const scene::Scene        &scene,
+                        const WholeMesh<dim>      &whole,
                         unsigned int               body,
                         unsigned int               region);
 

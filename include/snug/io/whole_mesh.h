@@ -3,6 +3,9 @@
 
 #include <snug/mesh/body_mesh.h>
 
+#include <map>
+#include <set>
+
 namespace snug::io {
 /**
  * The mesh of all bodies on rank 0, for mesh files. Nodes are numbered in the order of the cells,
@@ -36,6 +39,8 @@ struct WholeMesh
   std::vector<Face>                   faces;
   std::vector<Hanging>                hanging;
   std::vector<unsigned int>           number_of; ///< global node -> node
+  /// body -> regions with cells
+  std::map<unsigned int, std::set<unsigned int>> regions;
 };
 
 /// Gather the mesh with the nodes at @p positions and nodal @p forces, which are the sums over the
