@@ -56,7 +56,9 @@ TEST(Gradient, Temperature)
       heat(given);
       GradientScene<2> scene(given, 0.05);
       check_derivatives(scene);
-      check_shape_gradients(scene);
+      // These velocities would move the nodes on the axis off the axis.
+      if (kind != Kind::axisymmetric)
+        check_shape_gradients(scene);
     }
   auto given = curved_scene<3>(3, 3, 0.04);
   heat(given);
