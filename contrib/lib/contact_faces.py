@@ -70,8 +70,9 @@ class Side:
         return self.points[self.nodes[high]]
 
     def window(self):
-        """Return the Window of the loaded nodes, or of all if there are none."""
-        loaded = self.nodes[self.pressure[self.nodes] > 0.]
+        """Return the Window of the faces with a loaded node, or of all if there are none. A row of
+        nodes in contact is thus as wide as its faces."""
+        loaded = np.unique(self.faces[(self.pressure[self.faces] > 0.).any(axis=1)])
         return Window(self.points[loaded if len(loaded) else self.nodes], self.normal())
 
     def curve(self):

@@ -50,7 +50,9 @@ def place_of_cut(state, side, axis):
     places = side.peaks()[:, axis]
     # of places at both sides of the middle, the first one
     distances = np.round(np.abs(places - middle) / (high - low)[axis], 6)
-    return float(np.clip(places[np.argmin(distances)], low[axis], high[axis]))
+    extent = (high - low)[axis]
+    place = np.round(places[np.argmin(distances)] / extent, 9) * extent  # no zero with round-off
+    return float(np.clip(place, low[axis], high[axis])) + 0.
 
 
 def draw_section(axis, drawn, level, ends, units, stretched):

@@ -97,7 +97,7 @@ class Window:
     def levels(self, plane, low, high):
         """Return the windows in the plane of two axes, as (lower, upper) corners within the whole
         from low to high: the surroundings of the contact, and before it one in between if these
-        are less than a thirtieth of the whole; none if they are more than an eighth of it."""
+        are less than a thirtieth of the whole; none if they are more than 0.16 of it."""
         middle, size = self.middle[plane], self.size[plane]
         size = np.maximum(size, 1e-3 * size.max())
         extent = np.maximum(high - low, 1e-9 * (high - low).max())
@@ -105,7 +105,7 @@ class Window:
         def of_size(half):
             return np.maximum(low, middle - half), np.minimum(high, middle + half)
         first, last = of_size(size)
-        if size.max() == 0. or np.prod((last - first) / extent) > 0.125 or np.any(last <= first):
+        if size.max() == 0. or np.prod((last - first) / extent) > 0.16 or np.any(last <= first):
             return []
         ratio = np.max(extent) / np.max(last - first)
         between = [of_size(np.full(2, size.max()) * np.sqrt(ratio))] if ratio > 30. else []
