@@ -144,9 +144,14 @@ Handle(Geom2d_BSplineCurve) curve_through(const std::vector<dealii::Point<2>> &p
   return through.Curve();
 }
 
-TopoDS_Face trimmed(const SplineFace &face, const double tolerance)
+/// Return the face within its loops. The curves of its edges deviate from the curves of parameters
+/// by at most a millionth of the ranges of the parameters.
+TopoDS_Face trimmed(const SplineFace &face)
 {
   const Handle(Geom_BSplineSurface) surface = surface_of(face);
+  double ranges                             = 0.;
+  for (const auto &axis : face.axes)
+    ranges += axis.breaks.back() - axis.breaks.front();
   BRepBuilderAPI_MakeFace make;
   for (unsigned int l = 0; l < face.loops.size(); ++l)
     {
@@ -154,7 +159,7 @@ TopoDS_Face trimmed(const SplineFace &face, const double tolerance)
       for (const auto &piece : face.loops[l])
         {
           const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(curve_through(piece), surface);
-          BRepLib::BuildCurve3d(edge, tolerance);
+          BRepLib::BuildCurve3d(edge, 1e-6 * ranges);
           wire.Add(edge);
         }
       if (!wire.IsDone())
@@ -167,32 +172,30 @@ TopoDS_Face trimmed(const SplineFace &face, const double tolerance)
   return make.Face();
 }
 
+TopoDS_Face swept(const SplineFace &face, const double tolerance)
+{
+  const auto curve = curve_of(face);
+  Handle(Geom_Surface) surface;
+  if (face.sweep == SplineFace::Sweep::revolved)
+    {
+      surface = new Geom_SurfaceOfRevolution(curve, gp_Ax1(gp_Pnt(0., 0., 0.), gp_Dir(0., 1., 0.)));
+      return BRepBuilderAPI_MakeFace(surface, tolerance);
+    }
+  surface = new Geom_SurfaceOfLinearExtrusion(curve, gp_Dir(0., 0., 1.));
+  return BRepBuilderAPI_MakeFace(surface, curve->FirstParameter(), curve->LastParameter(), 0.,
+                                 face.thickness, tolerance);
+}
+
 TopoDS_Face face_of(const SplineFace &face)
 {
   const double tolerance = 1e-7;
   TopoDS_Face  result;
-  switch (face.sweep)
-    {
-      case SplineFace::Sweep::none:
-        result = !face.loops.empty() ? trimmed(face, 1e-5)
-                                     : BRepBuilderAPI_MakeFace(surface_of(face), tolerance).Face();
-        break;
-        case SplineFace::Sweep::extruded: {
-          const auto curve = curve_of(face);
-          Handle(Geom_Surface) surface =
-            new Geom_SurfaceOfLinearExtrusion(curve, gp_Dir(0., 0., 1.));
-          result = BRepBuilderAPI_MakeFace(surface, curve->FirstParameter(), curve->LastParameter(),
-                                           0., face.thickness, tolerance);
-          break;
-        }
-        case SplineFace::Sweep::revolved: {
-          Handle(Geom_Surface) surface =
-            new Geom_SurfaceOfRevolution(curve_of(face),
-                                         gp_Ax1(gp_Pnt(0., 0., 0.), gp_Dir(0., 1., 0.)));
-          result = BRepBuilderAPI_MakeFace(surface, tolerance);
-          break;
-        }
-    }
+  if (face.sweep != SplineFace::Sweep::none)
+    result = swept(face, tolerance);
+  else if (face.loops.empty())
+    result = BRepBuilderAPI_MakeFace(surface_of(face), tolerance);
+  else
+    result = trimmed(face);
   if (face.reversed)
     result.Reverse();
   return result;

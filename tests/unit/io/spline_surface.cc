@@ -100,7 +100,9 @@ void expect_oval(const geometry::Part part, const double tolerance)
       // some random points is not the maximum of the face.
       EXPECT_NEAR(r, 3. + 0.1 * std::cos(2. * angle), 2. * tolerance + 4e-6);
       if (dim == 3)
-        EXPECT_NEAR(x[dim - 1], at[dim - 2], 1e-9);
+        {
+          EXPECT_NEAR(x[dim - 1], at[dim - 2], 1e-9);
+        }
     }
 }
 
