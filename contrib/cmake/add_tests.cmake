@@ -33,9 +33,8 @@ function(snug_add_unit_test module)
   if(SNUG_INSTRUMENT)
     set(timeout 1800)
   endif()
-  # Assertions cost time: each module runs once, on 2 ranks if it is collective. Release runs all
-  # numbers of ranks.
-  if(CMAKE_BUILD_TYPE STREQUAL "Debug" AND 2 IN_LIST ARG_RANKS)
+  # Assertions cost time, so that each module runs once, on 2 ranks if it is collective.
+  if(CMAKE_BUILD_TYPE STREQUAL "Debug" AND 3 IN_LIST ARG_RANKS)
     set(ARG_RANKS 2)
   endif()
   foreach(ranks ${ARG_RANKS})

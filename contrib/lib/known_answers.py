@@ -137,6 +137,15 @@ def gear_pair(result, _):
              a)]
 
 
+# A quarter of the hip joint's section.
+HIP_SECTION = ["Dimension=2", "Model=axisymmetric", "Element degree=2",
+               "Body head/Force=inner: 0 -2500", "Body head/Supports=start: x",
+               "Body cup/Supports=start: x, outer: xy", "Response sinks/Component=y",
+               *(f"Body {body}/{entry}" for body in ("head", "cup")
+                 for entry in ("Mesh=ring", "Part=quarter", "Rotate=z: -90",
+                               "Cells=96, 32"))]
+
+
 def hip_joint(result, section):
     """The answer is that of the same joint as a section. Pressures of both are on the cup; left out are nodes on
     the symmetry planes, where the head covers less of their areas."""

@@ -1,18 +1,19 @@
-"""Draw the shaped faces in the reference geometry and in the design, from profile.csv."""
+"""Draw the shaped faces in the reference geometry and in the design, and the change between them,
+from profile.csv."""
 
 import csv
 import os
 
-import matplotlib.pyplot as plt
-from matplotlib.ticker import MaxNLocator
 import numpy as np
+from matplotlib.tri import LinearTriInterpolator, Triangulation
 
-from drawing import COLOURS, panels, save
+from drawing import CHANGES, COLOURS, Panel, compose, frame, proportions, scales
 from states import PlotError, existing
+from views import AXES, along_axis
 
 # A piece has a drop to draw if no normal is inclined by more than 60 degrees to their mean.
 LEAST_COSINE = 0.5
-TITLES = "reference", "design"
+TITLES = "before", "after"
 
 
 class Piece:
@@ -22,7 +23,7 @@ class Piece:
         def column(name):
             return np.array([float(row[name] or "nan") for row in rows])
 
-        axes = [axis for axis in "xyz" if axis in rows[0]]
+        axes = [axis for axis in AXES if axis in rows[0]]
         self.name = rows[0]["face"]
         self.points = np.transpose([column("reference_" + axis) for axis in axes])
         self.move, self.drops = column("move"), [column("reference_drop"), column("drop")]
@@ -30,13 +31,13 @@ class Piece:
         normals = np.transpose([column("normal_" + axis) for axis in axes])
         mean = normals.mean(axis=0)
         self.is_flat = np.min(normals @ mean) > LEAST_COSINE * np.linalg.norm(mean)
-        self.plane = [i for i in range(len(axes)) if i != np.argmax(np.abs(mean))]
+        self.normal = int(np.argmax(np.abs(mean)))
 
 
 def read_pieces(path):
     rows = {}
     try:
-        with open(path, newline="") as file:
+        with open(path, newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 rows.setdefault(int(row["piece"]), []).append(row)
         return [Piece(of_piece) for of_piece in rows.values()]
@@ -44,51 +45,91 @@ def read_pieces(path):
         raise PlotError(f"file '{path}' is damaged") from None
 
 
-def draw_curves(pieces):
-    """Draw the drops over the arc length; of pieces that turn too far, the displacement."""
-    figure, axes = plt.subplots(len(pieces), 1, squeeze=False, layout="constrained",
-                                figsize=(8., 1. + 3. * len(pieces)))
-    for axis, piece in zip(axes[:, 0], pieces):
-        if piece.is_flat:
-            for drop, label in zip(piece.drops, TITLES):
-                axis.plot(piece.arc_length, -drop, label=label)
-            axis.legend()
-            axis.set_ylabel("height below the\nhighest point (scene's length)")
-        else:
-            axis.plot(piece.arc_length, piece.move)
-            axis.set_ylabel("displacement along\nthe normal (scene's length)")
-        axis.set_title(piece.name)
-        axis.grid(True, alpha=0.3)
-    axes[-1, 0].set_xlabel("length along the face (scene's length)")
-    return figure
+def draw_heights(axis, places, drops, place, units):
+    for drop, head in zip(drops, TITLES):
+        axis.plot(places, -drop, ".-", markersize=3, label=head)
+    axis.legend()
+    finish(axis, place, units.label("height", units.length))
 
 
-def draw_maps(pieces):
-    """Draw the drops of both shapes side by side, seen along the mean normal."""
-    views = [piece.points[:, piece.plane] for piece in pieces]
-    figure, axes = panels([np.ptp(view[:, 1]) / np.ptp(view[:, 0]) for view in views], 2)
-    for row, (piece, view) in enumerate(zip(pieces, views)):
-        of_piece = axes[row] if axes.shape[1] == 2 else axes[:, 0]
-        levels = np.linspace(0., 1.001 * np.max(piece.drops) or 1., 65)
-        for axis, drop, title in zip(of_piece, piece.drops, TITLES):
-            image = axis.tricontourf(view[:, 0], view[:, 1], drop, levels=levels, cmap=COLOURS)
-            axis.set_title(f"{piece.name}, {title}\nlargest {drop.max():.4g}")
-            axis.set_xlabel(f"{'xyz'[piece.plane[0]]} (scene's length)")
-            axis.set_ylabel(f"{'xyz'[piece.plane[1]]} (scene's length)")
-        figure.colorbar(image, ax=of_piece, ticks=MaxNLocator(),
-                        label="depth below the highest point (scene's length)")
-    return figure
+def draw_change(axis, places, change, place, label):
+    axis.axhline(0., color="grey", linewidth=.8)
+    axis.plot(places, change, ".-", markersize=3, color="C2")
+    finish(axis, place, label)
 
 
-def draw_profile(directory):
+def finish(axis, place, label):
+    axis.set_xlabel(place)
+    axis.set_ylabel(label)
+    axis.grid(True, alpha=0.3)
+
+
+def heights_panel(name, places, place, drops, units):
+    return Panel(1.4, f"{name}, height against the highest point",
+                 lambda axis: draw_heights(axis, places, drops, place, units))
+
+
+def curve_group(piece, units):
+    """Return the panels of a 2D piece: the heights of both shapes, unless the piece turns too far,
+    and the change."""
+    place, change = units.place("length along the face"), units.label("change", units.length)
+    panels = [heights_panel(piece.name, piece.arc_length, place, piece.drops, units)] \
+        if piece.is_flat else []
+    return panels + [Panel(1.4 if panels else 2., f"{piece.name}, change along the normal",
+                           lambda axis: draw_change(axis, piece.arc_length, piece.move, place,
+                                                    change))]
+
+
+def draw_map(axis, view, places, values, ends, colours, units, stretched):
+    first, last = ends
+    image = axis.tripcolor(places[:, 0], places[:, 1], values, shading="gouraud", cmap=colours,
+                           vmin=first, vmax=last if last > first else first + 1.)
+    frame(axis, view, places.min(axis=0), places.max(axis=0), units, stretched)
+    return image
+
+
+def map_panels(piece, units):
+    """Return the maps of both shapes and of the change, seen along the mean normal."""
+    view = along_axis(piece.normal)
+    places = view.project(piece.points)
+    low, high = places.min(axis=0), places.max(axis=0)
+    ratio, stretch = proportions(low, high)
+    depth, change = units.label("depth", units.length), units.label("change", units.length)
+    bound = np.abs(piece.move).max()
+    ends = scales([drop.max() for drop in piece.drops])
+    drawn = [(f"{piece.name}, {head}\nup to {drop.max():.4g} below the highest point", drop,
+              (0., end), COLOURS, depth)
+             for drop, head, end in zip(piece.drops, TITLES, ends)]
+    drawn.append((f"change along the normal\nfrom {piece.move.min():.4g} to {piece.move.max():.4g}", piece.move,
+                  (-bound, bound), CHANGES, change))
+    return [Panel(ratio, title, lambda axis, values=values, of=of, colours=colours: draw_map(
+        axis, view, places, values, of, colours, units, stretch != 1.), label)
+        for title, values, of, colours, label in drawn]
+
+
+def middle_panel(piece, units):
+    """Return the panel of the heights along the longer direction of a 3D piece, in its middle."""
+    view = along_axis(piece.normal)
+    places = view.project(piece.points)
+    low, high = places.min(axis=0), places.max(axis=0)
+    along = int(np.argmax(high - low))
+    line = np.tile((low + high) / 2., (101, 1))
+    line[:, along] = np.linspace(low[along], high[along], 101)
+    mesh = Triangulation(places[:, 0], places[:, 1])
+    drops = [LinearTriInterpolator(mesh, drop)(line[:, 0], line[:, 1]) for drop in piece.drops]
+    name = f"{piece.name}, {view.names[1 - along]} = {line[0, 1 - along]:.4g}"
+    return heights_panel(name, line[:, along], units.place(view.names[along]), drops, units)
+
+
+def draw_profile(directory, units):
     """Draw shape.png; faces of 3D bodies that turn too far are left out."""
-    pieces = read_pieces(existing(os.path.join(directory, "profile.csv")))
-    if pieces and pieces[0].arc_length is not None:
-        figure = draw_curves(pieces)
-    else:
-        pieces = [piece for piece in pieces if piece.is_flat]
-        if not pieces:
-            return
-        figure = draw_maps(pieces)
-    figure.suptitle("Shaped faces without load")
-    save(figure, directory, "shape.png")
+    groups = []
+    for piece in read_pieces(existing(os.path.join(directory, "profile.csv"))):
+        if piece.arc_length is not None:
+            groups.append(curve_group(piece, units))
+        elif piece.is_flat:
+            maps = map_panels(piece, units)
+            groups += [maps[:2], [maps[2], middle_panel(piece, units)]]
+    if groups:
+        compose("Shaped faces without load, before and after the optimization", groups, directory,
+                "shape.png")

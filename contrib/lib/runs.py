@@ -51,7 +51,7 @@ def changed(path, entries):
     """Return the text of a parameter file of the repository with these entries at its end,
     from which mesh files are found in any directory."""
     path = ROOT / path
-    text = re.sub(r"(Mesh file\s*=\s*)", rf"\1{path.parent}/", path.read_text(encoding="utf-8"))
+    text = re.sub(r"(set File\s*=\s*)", rf"\1{path.parent}/", path.read_text(encoding="utf-8"))
     for name, value in entries.items():
         title, _, entry = name.rpartition("/")
         if title:
@@ -95,8 +95,8 @@ def points_of(directory):
 class Result:
     """This class has what one run leaves: its summary, the history of a search, and the contact
     points of the last state, with several load cases those of the first one and, in cases, of
-    each by its name. The picture is the file of the fields of a sensitivity of one load case. share is the part
-    of a core that the run had."""
+    each by its name. The picture is the file of the fields of the first body of a sensitivity of
+    one load case. share is the part of a core that the run had."""
 
     def __init__(self, directory, share=1.):
         self.share = share
@@ -105,9 +105,9 @@ class Result:
         history = directory / "history.csv"
         self.history = read_csv(history) if history.exists() else []
         self.picture = ""
-        picture = directory / "solution-0000.0000.vtu"
-        if self.summary.get("task") == "sensitivity" and picture.exists():
-            self.picture = picture.read_text()
+        for picture in directory.glob("solution-0000/00-*.0000.vtu"):
+            if self.summary.get("task") == "sensitivity":
+                self.picture = picture.read_text(encoding="utf-8")
         self.cases = {case["name"]: points_of(directory / case["name"])
                       for case in self.summary.get("load_cases", [])}
         self.points = next(iter(self.cases.values())) if self.cases else points_of(directory)

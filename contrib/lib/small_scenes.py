@@ -34,6 +34,12 @@ RESPONSES = values({f"state.responses.{name}": answer for name, answer in {
     "norm": 5 * 2**.25, "peak": 5, "variance": Below(1e-12)}.items()})
 
 
+# Held, E alpha dT is the stress and its energy; free, there is none.
+HEATED_BAR = values({"load_cases.0.state.responses.stress": 2e5 * 1e-5 * 60,
+                     "load_cases.0.state.strain_energy": 120**2 / 2e5 * 4 / 2,
+                     "load_cases.1.state.responses.stress": Below(1e-6),
+                     "load_cases.1.state.strain_energy": Below(1e-9)})
+
 # Pressure 5 and shears 0.3 * 5 and 2 on areas of 1; slips are 0.01 - shear / 500.
 FRICTION_ENTRIES = values({"load_cases.0.state.responses.stuck": 1, **{
     f"load_cases.1.state.responses.{name}": answer for name, answer in {
@@ -50,6 +56,45 @@ def two_materials(result, _):
     pulled = .1**2 * (10 / soft + 20 / hard)
     return [(case["name"], case["state"]["strain_energy"], 10 * energy / 2)
             for case, energy in zip(result.summary["load_cases"], (hanging, pulled))]
+
+
+def plane_on(springs):
+    """Return the measure of the plane w = a + b x + c y that balances springs (k, x, y) and the
+    loads."""
+    loads = [(10, .9, .7), (4, 2.1, 1.4), (2 * math.hypot(2.6, 1.6), 1.5, 1.1), (3 * 2, 3, 1)]
+
+    def moments(items, i, j):
+        return sum(size * (1, x, y)[i] * (1, x, y)[j] for size, x, y in items)
+
+    rows = [[*(moments(springs, i, j) for j in range(3)), -moments(loads, i, 0)]
+            for i in range(3)]
+    for i in range(3):  # Gauss-Jordan
+        rows[i] = [value / rows[i][i] for value in rows[i]]
+        for j in range(3):
+            if j != i:
+                rows[j] = [a - rows[j][i] * b for a, b in zip(rows[j], rows[i])]
+    corner = rows[0][3] + 3 * rows[1][3] + 2 * rows[2][3]
+    return lambda result, _: [
+        ("corner", result.state["responses"]["corner"], corner),
+        ("reaction", result.state["reactions"][0]["force"][2], sum(F for F, *_ in loads))]
+
+
+# Four points, and 50 per area with the moments of Gauss points.
+POINT_SPRINGS = plane_on([(100, 0, 0), (150, 3, 0), (200, 0, 2), (300, 3, 2)])
+WINKLER = plane_on([(50 * 6 / 4, 1.5 + x * 3 / math.sqrt(12), 1 + y * 2 / math.sqrt(12))
+                    for x in (-1, 1) for y in (-1, 1)])
+
+
+def heated_tube(result, _):
+    """Timoshenko, Goodier, Theory of Elasticity: a tube in plane strain, here with the external
+    pressure of the springs."""
+    E, nu, alpha, k, a, b = 2e5, .3, 1e-5, 1e4, 1, 2
+    integral = 50 * 5 / 12  # of T r over r
+    outer, bore = (2 * (1 + nu) * alpha * r * integral / (b**2 - a**2) for r in (b, a))
+    by_pressure = (1 + nu) * b**2 / (E * (b**2 - a**2))
+    pressure = k * outer / (1 + k * by_pressure * ((1 - 2 * nu) * b + a**2 / b))
+    return [("bore", result.state["responses"]["bore"],
+             bore - pressure * by_pressure * 2 * (1 - nu) * a)]
 
 
 def named_boundaries(result, _):
@@ -89,6 +134,26 @@ def pair_entries(result, _):
     return [*known_answers.extremes(result, 1., 0), *known_answers.extremes(result, 1., 1),
             *((f"rows of {pair['name']}", pair["rows"], rows)
               for pair, rows in zip(result.state["pairs"], (16, 25)))]
+
+
+def ground_volume(removed):
+    """The volume of the unit square less that of the ground profile."""
+    return values({"optimization.objective_final": 1 - removed})
+
+
+# The control points of the even splines descend linearly, or the profile is a parabola.
+SLOPE_VOLUME, TOOL_VOLUME = .1 * 73 / 147, 1 / (3 * 5)
+
+
+def shaped_bore(result, _):
+    """Lame's tube of the radii 1.1 and 2 in plane strain, and the derivative of its energy with
+    respect to the inner radius, of which each of six control points has a sixth."""
+    def energy(a, b=2, E=1000, nu=.3):
+        modulus, ratio = E / (1 - nu**2), nu / (1 - nu)
+        return math.pi * .5 * b**2 * ((b**2 + a**2) / (b**2 - a**2) - ratio) / modulus
+    slope = (energy(1.1 + 1e-5) - energy(1.1 - 1e-5)) / 2e-5
+    return [("strain energy", at(result, "state.strain_energy"), energy(1.1)),
+            ("gradient", at(result, GRADIENT), [-slope / 6] * 6)]
 
 
 def rows_of_disc(floor, lid):
@@ -216,7 +281,15 @@ CHECKS = [
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
     Check("deck-blocks", [], DECK_BLOCKS),
+    Check("cad-block", [], named_boundaries),
     Check("boundary-formulas", [], boundary_formulas, 1e-6),
+    Check("point-loads", [], POINT_SPRINGS, 1e-6),
+    Check("point-loads", ["Decomposition/Subdomains=8", "Body block/Box cells=3, 5, 1"],
+          POINT_SPRINGS, 1e-6),
+    Check("point-loads", ["Body block/Springs=bottom: xyz = 50", "Body block/Point springs="],
+          WINKLER, 1e-6),
+    Check("heated-bar", [], HEATED_BAR, 1e-9),
+    Check("heated-tube", [], heated_tube, 1e-5),
     Check("lame-cylinder", [], lame_cylinder, 3e-3),
     Check("lame-cylinder", ["Obstacle pin/Shape=cylinder", "Obstacle pin/Formula="],
           same("state.max_pressure", "state.pairs.1.force.0"), 1e-6, []),
@@ -280,6 +353,16 @@ CHECKS = [
           same("optimization.objective_final",
                less=("work.assembled_subdomains", "work.numeric_factorizations")),
           1e-4, ["Shape/Reach=0"]),
+    Check("ground-profile", [], ground_volume(SLOPE_VOLUME), 1e-6),
+    Check("ground-profile", ["Optimization/Algorithm=MMA"], ground_volume(SLOPE_VOLUME), 1e-4),
+    Check("ground-profile", ["Task=sensitivity"],
+          values({"profile.0.deviation": Below(1e-9), "profile.0.asked": 1e-9}), 1e-6),
+    Check("ground-profile", ["Shape/Maximum slope=0", "Shape/Minimum tool radius=5"],
+          ground_volume(TOOL_VOLUME), 1e-6),
+    Check("ground-profile", ["Shape/Maximum slope=0", "Shape/Convex=true"], ground_volume(0),
+          1e-6),
+    Check("ground-profile", ["Shape/Coordinates=projection"], ground_volume(SLOPE_VOLUME), 1e-6),
+    Check("shaped-bore", [], shaped_bore, 1e-3),
     Check("tied-points", [], mirror_images, 1e-4, ["Shape/Symmetry="]),
     Check("tied-points", [], same("optimization.design"), 1e-8, ["Shape/Fixed=0, 4"]),
     Check("tied-points", [], same(more=("optimization.objective_final",)), 0.,

@@ -1,5 +1,6 @@
 #include <snug/accuracy/cell_fields.h>
 #include <snug/mesh/shared_nodes.h>
+#include <snug/state/thermal.h>
 
 namespace snug::accuracy {
 template <int dim>
@@ -8,6 +9,7 @@ CellFields<dim>::CellFields(const state::StateSolver<dim>  &solver,
   : local_positions(mesh::owners_values(solver.mesh(), state.positions))
   , displacement(mesh::owners_values(solver.mesh(), state.displacement))
   , solver(solver)
+  , loads(solver.model().load_cases[state.load_case].bodies)
 {
   for (const auto &body : solver.model().bodies)
     elements.emplace_back(solver.mesh().degree(), solver.mesh().idealization(), body.formulation);
@@ -33,11 +35,19 @@ const elasticity::Material &CellFields<dim>::material(const unsigned int cell) c
 }
 
 template <int dim>
-std::vector<dealii::SymmetricTensor<2, 3>>
-CellFields<dim>::stresses(const unsigned int cell, const Field &u, const Shapes &at) const
+std::vector<dealii::SymmetricTensor<2, 3>> CellFields<dim>::stresses(const unsigned int cell,
+                                                                     const Field       &u,
+                                                                     const double       thermal,
+                                                                     const Shapes      &at) const
 {
-  return elements[solver.mesh().known_cell(cell).body].stresses(positions(cell), material(cell),
-                                                                at_cell(cell, u), at);
+  const unsigned int             body = solver.mesh().known_cell(cell).body;
+  elasticity::ThermalStrain<dim> strain;
+  if (thermal != 0. && loads[body].temperature)
+    if (const auto full =
+          state::thermal_strain<dim>(loads[body], material(cell),
+                                     at_cell(cell, solver.mesh().reference_positions())))
+      strain = [=](const auto &shape) { return thermal * full(shape); };
+  return elements[body].stresses(positions(cell), material(cell), at_cell(cell, u), at, strain);
 }
 
 template <int dim>
@@ -46,11 +56,11 @@ CellFields<dim>::fluxes(const unsigned int             cell,
                         const LoadedDisplacement<dim> &of,
                         const Shapes                  &at) const
 {
-  auto        result = stresses(cell, of.displacement, at);
+  auto        result = stresses(cell, of.displacement, of.thermal, at);
   const auto &body   = solver.model().body_names[solver.mesh().known_cell(cell).body];
   if (of.more && of.more->stress && (of.more->body.empty() || body == of.more->body))
     {
-      const auto sigma = stresses(cell, displacement, at);
+      const auto sigma = stresses(cell, displacement, 1., at);
       for (unsigned int q = 0; q < at.size(); ++q)
         result[q] -= of.more->stress(material(cell), sigma[q]);
     }

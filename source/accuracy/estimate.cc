@@ -105,8 +105,9 @@ public:
     if (contact.has_friction())
       for (const auto &force : contact.forces(rows, forces).tangential)
         z.shears.push_back(-pressure(1., areas[z.shears.size()]) * force);
-    z.loads = derivative.load;
-    z.more  = &derivative;
+    z.loads   = derivative.load;
+    z.thermal = -derivative.stiffness;
+    z.more    = &derivative;
     return z;
   }
 
@@ -152,7 +153,7 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
 template <int dim>
 LoadedDisplacement<dim> unloaded(const mesh::Field<dim> &displacement, const std::size_t n_rows)
 {
-  return {displacement, std::vector<double>(n_rows, 0.), {}, 0.};
+  return {displacement, std::vector<double>(n_rows, 0.), {}, 0., 0.};
 }
 
 /// Estimates by a given state and given adjoints, and the ratios of the jumps that the solver left
@@ -295,7 +296,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
   const Products<dim> products(LocalErrors<dim>(solver, state), all, jumps,
                                solver.mesh().communicator());
   Attempt             result{{energy_estimate(state, products), {}}};
-  result.excess = products.excess(0, std::sqrt(2. * state.strain_energy));
+  result.excess = products.excess(0, state::energy_norms(solver.feti(state), state.u)[0]);
   if (responses.empty())
     return result;
   const GapResidual<dim>     gaps(solver, state);

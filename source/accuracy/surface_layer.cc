@@ -87,7 +87,7 @@ SurfaceLayer<dim>::locals(const Face                 &face,
     shapes.push_back(point.shape);
   const auto         X        = fields.positions(face.cell);
   const auto         v        = fields.at_cell(face.cell, of.displacement);
-  const auto         stresses = fields.stresses(face.cell, of.displacement, shapes);
+  const auto         stresses = fields.stresses(face.cell, of.displacement, of.thermal, shapes);
   const auto         fluxes   = fields.fluxes(face.cell, of, shapes);
   std::vector<Local> result;
   for (unsigned int q = 0; q < at.size(); ++q)

@@ -172,6 +172,44 @@ dealii::Tensor<2, dim> Conditions<dim>::held(const Place<dim> &at) const
   return P;
 }
 
+/// Return a vector field that has the symmetries of the concentrated forces of a boundary: each
+/// force times a function of the distance from its place.
+template <int dim>
+static dealii::Tensor<1, dim> field_of(const std::vector<state::PlacedForce<dim>> &forces,
+                                       const dealii::Point<dim>                   &x,
+                                       const double                                length)
+{
+  dealii::Tensor<1, dim> sum;
+  const auto             decay = [&](const dealii::Point<dim> &place) {
+    return std::exp(-x.distance_square(place) / (length * length));
+  };
+  for (const auto &force : forces)
+    sum += force.force * (force.along ? 1. + *force.along
+                          : force.to  ? decay(force.from) + decay(*force.to)
+                                      : decay(force.from));
+  return sum;
+}
+
+/// Return the stiffness per area of the springs at a point, and a tensor field that has the
+/// symmetries of the springs at points.
+template <int dim>
+static dealii::Tensor<2, dim>
+stiffness_of_springs(const state::Model<dim> &model, const Place<dim> &at, const double length)
+{
+  dealii::Tensor<2, dim> sum;
+  for (const auto &spring : model.springs)
+    if (spring.body == at.body && spring.boundary == at.boundary)
+      {
+        dealii::Tensor<1, dim> q = at.normal;
+        if (spring.component != supports::Support<dim>::normal)
+          q = dealii::Point<dim>::unit_vector(spring.component);
+        const double decay =
+          spring.place ? std::exp(-at.x.distance_square(*spring.place) / (length * length)) : 1.;
+        sum += decay * spring.stiffness(at.x) * outer_product(q, q);
+      }
+  return sum;
+}
+
 /// Prescribed components are those of supports. Their directions are at right angles or, at oblique
 /// faces, differ in the same way at both points of a symmetry.
 template <int dim>
@@ -179,7 +217,7 @@ void Conditions<dim>::add_loads(const Place<dim>  &at,
                                 const unsigned int load_case,
                                 PointData<dim>    &data) const
 {
-  Vector      prescribed, traction;
+  Vector      prescribed, traction, concentrated;
   const auto &loads = input.model().load_cases[load_case].bodies[at.body];
   for (const auto &support : input.model().supports)
     if (support.body == at.body && support.boundary == at.boundary && support.values[load_case])
@@ -198,6 +236,8 @@ void Conditions<dim>::add_loads(const Place<dim>  &at,
         traction = found->second.traction(at.x);
       if (found->second.pressure)
         traction -= found->second.pressure(at.x) * at.normal;
+      concentrated =
+        field_of<dim>(found->second.concentrated, dealii::Point<dim>(at.x), 0.3 * size());
     }
   dealii::Tensor<2, dim> moment; // maps v to m x v
   for (unsigned int j = 0; j < dim; ++j)
@@ -207,7 +247,8 @@ void Conditions<dim>::add_loads(const Place<dim>  &at,
       for (unsigned int i = 0; i < dim; ++i)
         moment[i][j] = column[i];
     }
-  for (const auto &v : {prescribed, traction, total.force})
+  data.push_back(tensor_datum(stiffness_of_springs(input.model(), at, 0.3 * size())));
+  for (const auto &v : {prescribed, traction, concentrated, total.force})
     data.push_back(vector_datum(v));
   data.push_back(tensor_datum(moment));
 }
@@ -263,6 +304,8 @@ PointData<dim> Conditions<dim>::data(const Place<dim> &at) const
           if (loads.body_force)
             force += loads.body_force(at.x);
           result.push_back(vector_datum(force));
+          result.push_back(scalar_datum<dim>(
+            loads.temperature ? material.expansion * loads.temperature(at.x) : 0.));
         }
       return result;
     }

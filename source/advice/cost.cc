@@ -1,6 +1,7 @@
 #include <snug/advice/cost.h>
 #include <snug/base/values.h>
 #include <snug/elasticity/element.h>
+#include <snug/geometry/face_list.h>
 #include <snug/mesh/parts.h>
 #include <snug/mesh/surface.h>
 #include <snug/response/response.h>
@@ -23,7 +24,7 @@ double
 count_nodes(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side)
 {
   std::vector<contact::Boundary> boundaries;
-  for (const auto &face : contact::faces_of_side(side))
+  for (const auto &face : geometry::face_list(side))
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       if (const auto [body, boundary] = scene::split_face(face);
           !boundary.empty() && scene.bodies[b].name == body)
@@ -50,14 +51,17 @@ Counts count(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
                                : slave;
     }
   std::set<std::pair<unsigned int, unsigned int>> parts; // parts are numbered body by body
-  std::vector<double> sums(2 * mesh.n_bodies() + 1, 0.); // cells, hanging nodes, subdomains
+  std::vector<double>                             sums(3 * mesh.n_bodies() + 1,
+                                                       0.); // cells, hanging and free nodes, subdomains
   for (const auto &cell : mesh.cells())
     {
-      sums[2 * cell.body] += 1.;
+      sums[3 * cell.body] += 1.;
       parts.insert({cell.body, cell.part});
     }
-  for (const auto &hanging : mesh.hanging())
-    sums[2 * mesh.body_of_node(hanging.node) + 1] += 1.;
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
+  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
+    if (mesh.owner(node) == rank)
+      sums[3 * mesh.body_of_node(node) + (mesh.is_hanging(node) ? 1 : 2)] += 1.;
   sums.back() = parts.size();
   dealii::Utilities::MPI::sum(sums, mesh.communicator(), sums);
   result.subdomains  = sums.back();
@@ -65,11 +69,13 @@ Counts count(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
   for (unsigned int b = 0; b < mesh.n_bodies(); ++b)
     {
       // The cells lie in layers if the body has a grid without local refinements.
-      const bool has_layers = mesh.geometry(b).has_grid() && sums[2 * b + 1] == 0.;
+      const bool has_layers = mesh.geometry(b).has_grid() && sums[3 * b + 1] == 0.;
       double     each       = has_layers ? by_size.compact : by_size.other;
       if (scene::is_nearly_incompressible(scene, scene.bodies[b]))
         each *= mesh::larger_subdomains(dim);
-      result.subdomains_by_size += std::max(1., std::round(sums[2 * b] / each));
+      // The cells of quadratic elements have fewer free nodes than other cells.
+      const double cells = std::min(sums[3 * b], sums[3 * b + 2] / std::pow(mesh.degree(), dim));
+      result.subdomains_by_size += std::max(1., std::round(cells / each));
       result.coarse_cells += mesh.geometry(b).n_coarse_cells();
       result.has_layers = result.has_layers && has_layers;
     }
@@ -228,9 +234,9 @@ Cost estimate_cost(const scene::Scene &scene,
   const Constants &of     = scene.dimension == 2 ? plane : solid;
   const auto      &counts = cost.counts;
   const double     dim    = scene.dimension;
-  const double     n =
-    dim * std::pow(std::pow(counts.cells / counts.subdomains, 1. / dim) * scene.degree + 1., dim);
-  const double mesh =
+  const double     nodes  = std::min(counts.nodes, counts.cells * std::pow(scene.degree, dim));
+  const double     n      = dim * std::pow(std::pow(nodes / counts.subdomains, 1. / dim) + 1., dim);
+  const double     mesh =
     of.node[scene.degree - 1] * counts.nodes +
     counts.subdomains * (of.subdomain_memory + of.entries * std::pow(n, of.apply_power));
   // every rank has the coarse cells

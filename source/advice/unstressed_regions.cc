@@ -1,6 +1,7 @@
 #include <snug/advice/conditions.h>
 #include <snug/elasticity/element.h>
 #include <snug/state/rigid_modes.h>
+#include <snug/state/thermal.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -22,24 +23,35 @@ struct Region
   double       inner = 0.; ///< cells without a face in contact, whose size contact does not see
 };
 
-/// Return the strain energy u'Ku / 2 of a cell.
+/// Return the elastic energy of a cell, u'Ku / 2 without the thermal strain.
 template <int dim>
 double strain_energy(const AdviceInput<dim>                   &input,
                      const typename mesh::BodyMesh<dim>::Cell &cell,
                      const state::ContactState<dim>           &state)
 {
   const auto                         &body = input.model().bodies[cell.body];
-  std::vector<dealii::Tensor<1, dim>> X, u, r(cell.nodes.size());
+  std::vector<dealii::Tensor<1, dim>> X_0, X, u, r(cell.nodes.size());
   for (const unsigned int node : cell.nodes)
     {
+      X_0.push_back(input.mesh().reference_positions()[node]);
       X.push_back(state.positions[node]);
       u.push_back(state.displacement[node]);
     }
-  elasticity::Element<dim>(input.mesh().degree(), input.mesh().idealization(), body.formulation)
-    .internal_force(X, body.material(cell), u, r);
+  const elasticity::Element<dim> element(input.mesh().degree(), input.mesh().idealization(),
+                                         body.formulation);
+  element.internal_force(X, body.material(cell), u, r);
   double sum = 0.;
   for (unsigned int a = 0; a < u.size(); ++a)
     sum += 0.5 * (u[a] * r[a]);
+  if (const auto strain =
+        state::thermal_strain<dim>(input.model().load_cases[state.load_case].bodies[cell.body],
+                                   body.material(cell), X_0))
+    {
+      element.thermal_force(X, body.material(cell), strain, r);
+      for (unsigned int a = 0; a < u.size(); ++a)
+        sum -= u[a] * r[a];
+      sum += element.thermal_energy(X, body.material(cell), strain);
+    }
   return sum;
 }
 
@@ -123,7 +135,7 @@ bool is_loaded(const state::Model<dim> &model, const unsigned int body)
   for (const auto &load_case : model.load_cases)
     {
       const auto &loads = load_case.bodies[body];
-      if (loads.body_force || !loads.boundaries.empty())
+      if (loads.body_force || loads.temperature || !loads.boundaries.empty())
         return true;
       for (const auto &material : model.bodies[body].materials)
         if (material.density * loads.gravity.norm() > 0.)

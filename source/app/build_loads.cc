@@ -1,7 +1,9 @@
 #include <snug/app/build_loads.h>
 #include <snug/base/values.h>
+#include <snug/geometry/face_list.h>
 #include <snug/geometry/formula.h>
 #include <snug/geometry/rigid_motion.h>
+#include <snug/scene/placed_force.h>
 
 namespace snug::app {
 namespace {
@@ -105,6 +107,10 @@ public:
       add_resultant("Force", item.first, {to_tensor<dim>(item.second), {}}, to);
     for (const auto &item : loads.moment)
       add_resultant("Moment", item.first, resultant_moment<dim>(item.second), to);
+    for (const auto &item : loads.point_forces)
+      add_placed("Point force", item.first, item.second, to);
+    for (const auto &item : loads.line_forces)
+      add_placed("Line force", item.first, item.second, to);
   }
 
 private:
@@ -125,6 +131,27 @@ private:
     load.resultant.moment += resultant.moment;
   }
 
+  void add_placed(const std::string    &entry,
+                  const std::string    &key,
+                  const std::string    &text,
+                  state::LoadCase<dim> &to) const
+  {
+    const auto              force = scene::placed_force(text, dim);
+    state::PlacedForce<dim> placed;
+    placed.force = to_tensor<dim>(force.force);
+    placed.name  = "entry '" + section + entry + "' = '" + key + ": " + text + "'";
+    require_axial(mesh, section + entry, key, {placed.force, {}});
+    placed.from = dealii::Point<dim>(to_tensor<dim>(force.at.empty() ? force.from : force.at));
+    if (!force.to.empty())
+      placed.to = dealii::Point<dim>(to_tensor<dim>(force.to));
+    if (!force.along.empty())
+      {
+        const unsigned int body = find_face(scene, mesh, prefix + key).first;
+        placed.along            = geometry::boundary_index(mesh.geometry(body), force.along);
+      }
+    boundary(key, to).concentrated.push_back(placed);
+  }
+
   const scene::Scene        &scene;
   const mesh::BodyMesh<dim> &mesh;
   const std::string          section, prefix;
@@ -142,6 +169,8 @@ state::LoadCase<dim> common_loads(const scene::Scene &scene, const mesh::BodyMes
       const std::string section = "Body " + body.name;
       if (!body.body_force.empty())
         common.bodies[b].body_force = function_of<dim>(section + "/Body force", body.body_force);
+      if (!body.temperature.empty())
+        common.bodies[b].temperature = function_of<dim>(section + "/Temperature", body.temperature);
       common.bodies[b].gravity = to_tensor<dim>(scene.gravity);
       LoadBuilder<dim>(scene, mesh, section, body.name + ".").add(body.loads, common);
     }
@@ -198,6 +227,8 @@ void turn_loads_back(state::LoadCase<dim> &load_case)
           turn(load.traction);
           load.resultant.force  = motion.vector_back(load.resultant.force);
           load.resultant.moment = moment_back(motion, load.resultant.moment);
+          for (auto &placed : load.concentrated)
+            placed.force = motion.vector_back(placed.force);
         }
     }
 }
@@ -232,7 +263,7 @@ contact::Side
 find_side(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side)
 {
   contact::Side result;
-  for (const auto &face : contact::faces_of_side(side))
+  for (const auto &face : geometry::face_list(side))
     result.add(find_face(scene, mesh, face));
   return result;
 }
@@ -251,6 +282,13 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
       cases.back().name = of.name;
       for (auto &body : cases.back().bodies)
         body.gravity += to_tensor<dim>(of.gravity);
+      for (const auto &[name, formula] : of.temperatures)
+        {
+          auto &body = cases.back().bodies[scene::body_index(scene, name)];
+          body.temperature =
+            sum(body.temperature,
+                function_of<dim>("Load case " + of.name + "/Temperature", formula));
+        }
       LoadBuilder<dim>(scene, mesh, "Load case " + of.name, "").add(of.loads, cases.back());
       cases.back().position = position_of<dim>(scene, of);
       if (of.load_step && cases.size() > 1)

@@ -1,4 +1,5 @@
 #include <snug/app/build_model.h>
+#include <snug/geometry/face_list.h>
 #include <snug/sensitivity/methods.h>
 
 #include <algorithm>
@@ -75,12 +76,13 @@ std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &sc
   auto faces = held_along_normals(scene);
   for (const auto &pair : scene.contact.pairs)
     for (const auto &side : {pair.slave, pair.master})
-      for (const auto &face : contact::faces_of_side(side))
+      for (const auto &face : geometry::face_list(side))
         faces.push_back(face);
   bool is_designed = false;
   for (const auto &shape : scene.shapes)
     {
-      faces.push_back(shape.face);
+      for (const auto &face : geometry::face_list(shape.face))
+        faces.push_back(face);
       is_designed = is_designed || shape.moves();
     }
   std::vector<geometry::BodyMeshParameters> parameters;
@@ -173,6 +175,7 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
     }
   model.load_cases = build_load_cases(scene, mesh);
   model.supports   = build_supports(scene, mesh);
+  model.springs    = build_springs(scene, mesh);
   model.pairs      = build_pairs(scene, mesh);
   return model;
 }

@@ -27,12 +27,14 @@ void print_end(const ShapeProblem<dim>                  &problem,
       << counted(result.iterations, "iteration") << " and "
       << counted(result.evaluations, "evaluation") << '\n'
       << problem.scene.optimization.objective << ' ' << result.objective_initial << " -> "
-      << result.objective_final;
+      << result.objective_final
+      << scene::unit_after_number(problem.scene, problem.scene.optimization.objective);
+  const auto pressure = Units(problem.scene.units).after_number("force/length^2");
   for (unsigned int c = 0; c < last.size(); ++c)
     out << (last.size() == 1 ? "" : ", load case " + problem.scene.load_cases[c].name)
         << ", peak pressure " << first[c]["max_pressure"].get<double>() << " -> "
-        << last[c].max_pressure << ", active contacts " << first[c]["active_contacts"] << " -> "
-        << last[c].active_contacts;
+        << last[c].max_pressure << pressure << ", active contacts " << first[c]["active_contacts"]
+        << " -> " << last[c].active_contacts;
   out << std::endl;
 }
 
@@ -77,12 +79,13 @@ void report_paired_anew(Search<dim> &search, const OptimizationResult &result, c
   const double       change                = std::abs(values->objective - result.objective_final);
   std::ostringstream line;
   line << "after a new contact search, the final design has " << scene.optimization.objective << ' '
-       << values->objective << " instead of " << result.objective_final;
+       << values->objective << " instead of " << result.objective_final
+       << scene::unit_after_number(scene, scene.optimization.objective);
   const bool breaks = values->violation > std::max(most_violation, result.constraint_violation) &&
                       values->violation > scene.optimization.constraint_tolerance;
   if (breaks)
-    line << " and violates a constraint by " << values->violation << " of its limit instead of "
-         << result.constraint_violation;
+    line << " and violates '" << values->violated << "' by " << values->violation
+         << " of its limit instead of " << result.constraint_violation;
   if (breaks || change > most_change * std::abs(result.objective_final))
     search.results.warn({line.str() + "; 'Contact/Update pairing' can continue from there"});
   else
@@ -114,7 +117,9 @@ void report_gain(Search<dim>                              &search,
   line << scene.optimization.objective << ' ' << gain.initial;
   if (std::isfinite(gain.initial_error))
     line << " +- " << gain.initial_error;
-  line << " -> " << gain.final << " +- " << error << " (estimated discretization errors)";
+  line << " -> " << gain.final << " +- " << error
+       << scene::unit_after_number(scene, scene.optimization.objective)
+       << " (estimated discretization errors)";
   search.problem.context.out(Verbosity::quiet) << line.str() << std::endl;
   search.results.summary.optimization->gain = gain;
   const bool is_free = search.record.first_violation <= scene.optimization.constraint_tolerance;

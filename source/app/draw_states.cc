@@ -20,7 +20,7 @@ void Results<dim>::draw(const double                  time,
         states.size() > 1 ? problem->scene.load_cases[c].name + "/" : std::string();
       fields.push_back(
         folder + pictures[c].fields.write({*problem->mesh, problem->tearing, solver.model().bodies,
-                                           solver.model().load_cases[c].position},
+                                           solver.model().load_cases[c]},
                                           time, states[c], gradient ? &*gradient : nullptr,
                                           errors.empty() ? nullptr : &errors[c].energy.cells));
       const auto &contact = solver.contact(c);

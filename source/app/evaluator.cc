@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace snug::app {
 template <int dim>
@@ -76,6 +77,7 @@ typename Evaluator<dim>::Quantity Evaluator<dim>::make_constraint(const std::str
   const auto of    = scene::constraint_name(problem.scene, name);
   const auto bound = optimization::read_limit(limit);
   Quantity   constraint;
+  constraint.name     = name + ' ' + limit;
   constraint.response = problem.make_response(of.response);
   constraint.target   = bound.value;
   constraint.side     = bound.side;
@@ -126,6 +128,8 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &design)
   evaluation.objective           = found.objective;
   evaluation.constraints         = found.constraints;
   evaluation.reported            = problem.reported_values(states);
+  evaluation.reported.insert(evaluation.reported.end(), found.constrained.begin(),
+                             found.constrained.end());
   for (const auto &state : states)
     {
       evaluation.active_contacts += state.active_contacts;
@@ -207,14 +211,30 @@ DesignValues Evaluator<dim>::values(const States &states) const
           result.objective = J;
           continue;
         }
-      const double c = quantity.sign() * (J - quantity.target);
-      result.constraints.push_back(c);
-      const double size =
-        quantity.side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
-      result.violation =
-        std::max(result.violation, size / (quantity.target == 0. ? 1. : std::abs(quantity.target)));
+      result.constraints.push_back(quantity.sign() * (J - quantity.target));
+      result.constrained.push_back(J);
     }
+  std::tie(result.violation, result.violated) = most_violated(result.constrained);
   result.constraints.insert(result.constraints.end(), terms.begin(), terms.end());
+  return result;
+}
+
+template <int dim>
+std::pair<double, std::string>
+Evaluator<dim>::most_violated(const std::vector<double> &values) const
+{
+  std::pair<double, std::string> result = {0., ""};
+  const std::size_t              first  = values.size() + 1 - quantities.size();
+  for (unsigned int i = 1; i < quantities.size(); ++i)
+    {
+      const Quantity &quantity = quantities[i];
+      const double    c        = quantity.sign() * (values[first + i - 1] - quantity.target);
+      const double    size =
+        quantity.side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
+      const double violation = size / (quantity.target == 0. ? 1. : std::abs(quantity.target));
+      if (violation > result.first)
+        result = {violation, quantity.name};
+    }
   return result;
 }
 

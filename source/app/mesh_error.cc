@@ -65,11 +65,12 @@ std::vector<std::string> described(const ShapeProblem<dim>                  &pro
         {
           const double value = responses[j].second->value(*problem.solver, states[c]),
                        error = errors[c].responses[j].second.error();
-          line << "; " << responses[j].first << " " << value << ", ";
+          const auto unit    = scene::unit_after_number(problem.scene, responses[j].first);
+          line << "; " << responses[j].first << " " << value << unit << ", ";
           if (value != 0.)
             line << 100. * error / std::abs(value) << " %";
           else
-            line << error;
+            line << error << unit;
         }
       lines.push_back(line.str());
     }

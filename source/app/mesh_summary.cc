@@ -254,6 +254,27 @@ void print_estimate(RunContext                &context,
   });
 }
 
+void print_faces(const scene::Scene &scene, std::ostream &out)
+{
+  for (const auto &body : scene.bodies)
+    if (body.mesh.imported && !body.mesh.imported->faces.empty())
+      {
+        out << "body " << body.name << ", " << body.mesh.file << ":\n";
+        for (const auto &line : body.mesh.imported->faces)
+          out << "  " << line << '\n';
+      }
+}
+
+std::vector<std::string> import_warnings(const scene::Scene &scene)
+{
+  std::vector<std::string> lines;
+  for (const auto &body : scene.bodies)
+    if (body.mesh.imported)
+      for (const auto &warning : body.mesh.imported->warnings)
+        lines.push_back("body " + body.name + ", " + body.mesh.file + ": " + warning);
+  return lines;
+}
+
 void print_import_notes(const scene::Scene &scene, std::ostream &out)
 {
   for (const auto &body : scene.bodies)

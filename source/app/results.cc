@@ -1,12 +1,10 @@
 #include <snug/accuracy/adaptation.h>
 #include <snug/app/mesh_summary.h>
+#include <snug/app/offsets.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/io/mesh_export.h>
-#include <snug/io/profile.h>
 #include <snug/io/qp_export.h>
-#include <snug/io/shape_export.h>
-#include <snug/io/text_file.h>
 #include <snug/state/symmetry_planes.h>
 #include <snug/state/validity_checks.h>
 
@@ -33,14 +31,18 @@ void remove_earlier_results(const RunContext &context, const scene::Scene &scene
 template <int dim>
 Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 {
-  summary.task = to_text(of.scene.task);
+  summary.task  = to_text(of.scene.task);
+  summary.units = io::summarize_units(of.scene);
+  std::vector<std::string> body_names;
+  for (const auto &body : of.scene.bodies)
+    body_names.push_back(body.name);
   for (unsigned int c = 0; c < of.n_load_cases(); ++c)
     {
       const std::string directory = of.n_load_cases() == 1
                                       ? problem->scene.output_directory
                                       : path(problem->scene.load_cases[c].name);
-      pictures.push_back({io::FieldOutput<dim>(directory, problem->scene.output),
-                          io::ContactOutput<dim>(directory, problem->scene.output)});
+      pictures.push_back({io::FieldOutput<dim>(directory, problem->scene.output, body_names),
+                          io::ContactOutput<dim>(directory, problem->scene.output, body_names)});
     }
 }
 
@@ -62,7 +64,9 @@ void Results<dim>::print_header()
   const auto positions = solver.positions();
   for (const unsigned int c : positions)
     print_pairs(c, positions.size() > 1);
+  warn(import_warnings(problem->scene));
   warn(unrefined(problem->scene, *problem->mesh));
+  warn(offset_warnings(*problem));
   for (const unsigned int c : positions)
     {
       const auto &contact = solver.contact(c);
@@ -304,34 +308,6 @@ void Results<dim>::advise(const States &states)
     }
   if (summary.advice->empty())
     out << "advice: none" << std::endl;
-}
-
-template <int dim>
-void Results<dim>::export_shape(const std::vector<double> &design)
-{
-  if (problem->shapes->n_variables() == 0)
-    return;
-  const RunContext::Timer  timer(problem->context, "output");
-  const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
-  const auto               positions = problem->positions(design);
-  const auto               at_faces  = faces.gather(positions);
-  const auto               whole     = io::gather_mesh<dim>(*problem->mesh, positions);
-  const auto               points    = problem->shapes->control_points(design);
-  throw_collectively(problem->context.communicator(), [&]() {
-    if (problem->context.rank() != 0)
-      return;
-    if constexpr (dim == 3)
-      io::write_surface(path("surface.stl"), faces, at_faces);
-    io::write_text_file(
-      path("profile.csv"),
-      io::profile_text(
-        faces, at_faces, problem->mesh->degree(),
-        [&](unsigned int body, unsigned int boundary) {
-          return io::boundary_name(*problem->mesh, problem->scene, body, boundary);
-        },
-        [&](unsigned int node) { return whole.number_of[faces.global_node(node)] + 1; }));
-    io::write_control_points(path("control-points.csv"), points);
-  });
 }
 
 /// Return the numbers of rows. Rows of gluing and supports, which all positions share, count once.

@@ -1,6 +1,7 @@
 #include <snug/app/interrupt.h>
 #include <snug/app/search.h>
 #include <snug/geometry/imported_mesh.h>
+#include <snug/optimization/linear_limits.h>
 #include <snug/optimization/starts.h>
 #include <snug/scene/read_scene.h>
 
@@ -33,6 +34,24 @@ std::string fingerprint(scene::Scene scene)
   scene::print(scene, text);
   return text.str();
 }
+/// Return the names of the values of an evaluation: those of the shape problem, then the limits.
+template <int dim>
+std::vector<std::string> columns(const ShapeProblem<dim> &problem, const scene::Scene &scene)
+{
+  auto names = problem.value_names();
+  for (const auto &[name, limit] : scene.optimization.constraints)
+    names.push_back(name + ' ' + limit);
+  return names;
+}
+
+/// Return the name of the constraint that the @p values of an infeasible design violate most. If
+/// they violate none, the design violates limits of its shape.
+template <int dim>
+std::string violated(const Evaluator<dim> &evaluator, const std::vector<double> &values)
+{
+  const auto name = evaluator.most_violated(values).second;
+  return name.empty() ? "limits of the shape" : name;
+}
 } // namespace
 
 template <int dim>
@@ -41,7 +60,11 @@ SearchRecord<dim>::SearchRecord(Results<dim>            &results,
                                 const scene::Scene      &scene,
                                 const bool               restart)
   : results(results)
-  , history(results.path("history.csv"), problem.shapes->n_variables(), problem.value_names())
+  , history(results.path("history.csv"), problem.shapes->n_variables(), columns(problem, scene))
+  , progress(scene.optimization.objective,
+             scene::unit_after_number(scene, scene.optimization.objective),
+             scene.optimization.maximum_evaluations,
+             scene.optimization.constraint_tolerance)
   , journal({scene.output_directory, fingerprint(scene), restart, problem.context.communicator(),
              [&context = problem.context](const std::string &line) {
                context.out() << line << std::endl;
@@ -84,14 +107,15 @@ void Search<dim>::report_first(const Iteration &iteration)
   out << io::log_header() << std::endl;
 }
 
-/// Report an iteration of the search that begins after @p before iterations.
+/// Report an iteration of the search that continues the search @p before.
 template <int dim>
-void Search<dim>::report(const Iteration &iteration, const unsigned int before)
+void Search<dim>::report(const Iteration &iteration, const OptimizationResult &before)
 {
-  if (before + iteration.number == 0)
+  if (before.iterations + iteration.number == 0)
     report_first(iteration);
   io::HistoryLine line;
-  line.iteration            = before + iteration.number;
+  line.iteration            = before.iterations + iteration.number;
+  line.evaluations          = before.evaluations + iteration.evaluations;
   line.objective            = iteration.evaluation.objective;
   line.constraint_violation = iteration.constraint_violation;
   line.projected_gradient   = iteration.projected_gradient;
@@ -101,6 +125,8 @@ void Search<dim>::report(const Iteration &iteration, const unsigned int before)
   line.seconds              = iteration.evaluation.seconds;
   line.design               = iteration.x;
   line.values               = iteration.evaluation.reported;
+  if (line.constraint_violation > problem.scene.optimization.constraint_tolerance)
+    line.violated = violated(evaluator, line.values);
   log(io::log_line(line));
   throw_collectively(problem.context.communicator(), [&]() {
     if (problem.context.rank() == 0)
@@ -132,8 +158,11 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
   auto design_problem     = evaluator.design_problem(start);
   design_problem.evaluate = [&](const Design &x) {
     check_interrupts(problem.context.communicator());
-    problem.context.progress("solving the contact problem ...");
-    return evaluator.evaluate(x);
+    problem.context.progress(record.progress.text());
+    const auto evaluation = evaluator.evaluate(x);
+    record.progress.end(evaluation.objective, evaluator.most_violated(evaluation.reported).first,
+                        evaluation.seconds);
+    return evaluation;
   };
   // An interrupted search continues to the end of its evaluation, and needs the gradient of its
   // best design.
@@ -141,8 +170,12 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
     evaluator.differentiate(x, evaluation);
     warn_of_weak_contacts(x);
   };
+  std::vector<optimization::LinearLimit> limits;
+  for (const auto &[row, bound] : problem.shapes->limits())
+    limits.push_back({row, bound});
+  design_problem = optimization::with_limits(std::move(design_problem), limits);
   optimization::Hooks hooks;
-  hooks.on_iteration = [&](const Iteration &i) { report(i, before.iterations); };
+  hooks.on_iteration = [&](const Iteration &i) { report(i, before); };
   hooks.log          = [&](const std::string &line) { log(line); };
   auto parameters    = problem.scene.optimization;
   parameters.maximum_evaluations -= before.evaluations;
@@ -151,8 +184,15 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
   if (before.evaluations > 0)
     parameters.starts = 1;
 
-  auto result =
-    optimization::minimize_from_starts(record.journal.journaled(design_problem), parameters, hooks);
+  // The evaluations that a restart repeats from the journal are counted as well.
+  auto journaled     = record.journal.journaled(design_problem);
+  journaled.evaluate = [&, evaluate = journaled.evaluate](const Design &x) {
+    record.progress.begin();
+    return evaluate(x);
+  };
+  auto result = optimization::minimize_from_starts(journaled, parameters, hooks);
+  if (result.constraint_violation > parameters.constraint_tolerance)
+    result.violated = violated(evaluator, result.evaluation.reported);
   result.iterations += before.iterations;
   result.evaluations += before.evaluations;
   if (before.evaluations > 0)

@@ -1,4 +1,5 @@
 #include <snug/app/sensitivity.h>
+#include <snug/io/shape_export.h>
 #include <snug/sensitivity/bound_derivatives.h>
 #include <snug/sensitivity/methods.h>
 
@@ -189,6 +190,44 @@ double Sensitivity<dim>::displacement_difference(const std::vector<Field> &deriv
         }
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, problem.context.communicator());
   return std::sqrt(sums[0] / sums[1]);
+}
+
+/// The objective's gradient is known. Each response has the method that is cheapest for it, unless
+/// the scene names one that all responses have.
+template <int dim>
+void Sensitivity<dim>::write_all(const std::string &path) const
+{
+  const auto                         &scene = problem.scene;
+  std::vector<std::string>            names = {scene.optimization.objective};
+  std::vector<std::vector<double>>    all   = {gradient.values};
+  sensitivity::MeasuredResponses<dim> measured;
+  for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+    for (unsigned int i = 0; i < problem.responses.size(); ++i)
+      if (const auto &name = scene.responses[i].name; name != scene.optimization.objective)
+        {
+          names.push_back((problem.n_load_cases() == 1 ? "" : scene.load_cases[c].name + ".") +
+                          name);
+          measured.push_back({problem.responses[i].get(), c});
+        }
+  if (!measured.empty())
+    {
+      for (const auto &state : states)
+        problem.solver->restore(state);
+      auto parameters           = scene.gradient;
+      parameters.shape_gradient = false;
+      if (parameters.method == By::energy)
+        parameters.method.reset();
+      const auto found =
+        sensitivity::gradients(problem.load_cases(states, problem.shapes->start(), parameters),
+                               measured);
+      for (const auto &of_response : found.of_response)
+        all.push_back(of_response.values);
+    }
+  const auto points = problem.shapes->control_points(problem.shapes->start());
+  throw_collectively(problem.context.communicator(), [&]() {
+    if (problem.context.rank() == 0)
+      io::write_gradients(path, points, names, all);
+  });
 }
 
 template class Sensitivity<2>;

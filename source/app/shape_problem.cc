@@ -89,6 +89,7 @@ std::vector<std::string> ShapeProblem<dim>::value_names() const
       for (const auto &response : scene.responses)
         if (response.name != scene.optimization.objective)
           names.push_back(prefix + response.name);
+      names.push_back(prefix + "max_pressure");
     }
   return names;
 }
@@ -103,6 +104,7 @@ std::vector<double> ShapeProblem<dim>::reported_values(const States &states) con
       for (unsigned int i = 0; i < responses.size(); ++i)
         if (scene.responses[i].name != scene.optimization.objective)
           values.push_back(responses[i]->value(*solver, state));
+      values.push_back(state.max_pressure);
     }
   return values;
 }

@@ -54,36 +54,42 @@ std::string moment_text(const dealii::Tensor<1, 3> &moment)
 }
 
 template <int dim>
-void print_state(std::ostream &out, const state::ContactState<dim> &state)
+void print_state(std::ostream &out, const Units &units, const state::ContactState<dim> &state)
 {
-  out << "potential energy " << state.energy << ", compliance " << state.compliance
-      << ", strain energy " << state.strain_energy << "\ncontact force (" << state.contact_force
-      << "), contact area " << state.contact_area << ", peak pressure " << state.max_pressure
-      << '\n';
+  const std::string energy = units.after_number("force length");
+  out << "potential energy " << state.energy << energy << ", compliance " << state.compliance
+      << energy << ", strain energy " << state.strain_energy << energy << "\ncontact force ("
+      << state.contact_force << ")" << units.after_number("force") << ", contact area "
+      << state.contact_area << units.after_number("length^2") << ", peak pressure "
+      << state.max_pressure << units.after_number("force/length^2") << '\n';
   if (state.has_friction())
     out << "friction: " << state.slipping_contacts << " of "
         << counted(state.active_contacts, "contact") << " slip, dissipation " << state.dissipation
-        << '\n';
+        << energy << '\n';
 }
 
 template <int dim>
-void print_details(std::ostream &out, const state::ContactState<dim> &state)
+void print_details(std::ostream &out, const Units &units, const state::ContactState<dim> &state)
 {
+  const std::string length = units.after_number("length"), force = units.after_number("force"),
+                    moment = units.after_number("force length");
   out << "active contacts: " << state.active_contacts << " of " << state.contact.size() << ", "
       << state.weak_contacts << " weakly active, strict complementarity margin "
       << state.degeneracy_distance << "\nminimum scaled Jacobian: " << state.least_scaled_jacobian
       << '\n';
   for (const auto &pair : state.pairs)
-    out << "  contact " << pair.name << ": force (" << pair.force << "), moment ("
-        << moment_text<dim>(pair.moment) << ") about (" << pair.centre << "), area "
-        << pair.contact_area << ", peak pressure " << pair.max_pressure << " at (" << pair.peak
-        << ") with face size " << pair.peak_size << ", active contacts " << pair.active_contacts
-        << " of " << pair.rows << '\n';
+    out << "  contact " << pair.name << ": force (" << pair.force << ")" << force << ", moment ("
+        << moment_text<dim>(pair.moment) << ")" << moment << " about (" << pair.centre << ")"
+        << length << ", area " << pair.contact_area << units.after_number("length^2")
+        << ", peak pressure " << pair.max_pressure << units.after_number("force/length^2")
+        << " at (" << pair.peak << ")" << length << " with face size " << pair.peak_size << length
+        << ", active contacts " << pair.active_contacts << " of " << pair.rows << '\n';
   for (const auto &reaction : state.reactions)
-    out << "  support " << reaction.name << ": force (" << reaction.force << "), moment ("
-        << moment_text<dim>(reaction.moment) << ") about (" << reaction.centre << ")\n";
-  out << "sum of loads (" << state.load << "), with reactions and obstacle forces ("
-      << state.balance << ")\n";
+    out << "  support " << reaction.name << ": force (" << reaction.force << ")" << force
+        << ", moment (" << moment_text<dim>(reaction.moment) << ")" << moment << " about ("
+        << reaction.centre << ")" << length << '\n';
+  out << "sum of loads (" << state.load << ")" << force << ", with reactions and obstacle forces ("
+      << state.balance << ")" << force << '\n';
   out << state.dual.method << ": " << counted(state.dual.outer_iterations, "outer iteration")
       << ", " << counted(state.f_mults, "F-mult") << '\n';
   print_certificate(out, state);
@@ -94,17 +100,18 @@ void report(const ShapeProblem<dim>            &problem,
             Results<dim>                       &results,
             typename ShapeProblem<dim>::States &states)
 {
-  auto &out = problem.context.out(Verbosity::quiet);
+  auto       &out = problem.context.out(Verbosity::quiet);
+  const Units units(problem.scene.units);
   for (auto &state : states)
     {
       if (problem.scene.report_linear_reference)
         state.linear_f_mults = problem.solver->linear_f_mults(state);
       if (states.size() > 1)
         out << "load case " << problem.scene.load_cases[state.load_case].name << ": ";
-      print_state(out, state);
-      print_details(problem.context.out(), state);
+      print_state(out, units, state);
+      print_details(problem.context.out(), units, state);
       for (const auto &[name, value] : results.response_values(state))
-        out << name << ' ' << value << std::endl;
+        out << name << ' ' << value << scene::unit_after_number(problem.scene, name) << std::endl;
     }
   results.warn(states);
 }
@@ -134,7 +141,10 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   auto mesh = timed_mesh<dim>(context, scene);
   print_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_import_notes(scene, context.out());
+  print_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
+  for (const auto &line : import_warnings(scene))
+    context.warn(line);
   for (const auto &line : unrefined(scene, *mesh))
     context.warn(line);
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
@@ -207,6 +217,8 @@ std::string analyse(RunContext &context, const scene::Scene &scene, const bool a
       const Sensitivity<dim> sensitivity(problem, results, states);
       shape_gradient           = sensitivity.shape_gradient;
       results.summary.gradient = sensitivity.gradient;
+      sensitivity.write_all(results.path("gradients.csv"));
+      results.export_shape(problem.shapes->start());
     }
   // Responses that are no targets are estimated if the estimates of all responses are asked for.
   const bool all_errors = scene.accuracy.estimate == accuracy::Estimate::responses;
@@ -328,9 +340,12 @@ int run(const Options &options)
   reserve_blas_buffer();
   RunContext         context(MPI_COMM_WORLD, std::cout);
   scene::SceneSource source = {
-    options.file, scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
-    options.sets, options.output,
-    [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }};
+    options.file,
+    scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
+    options.sets,
+    options.output,
+    [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
+    MPI_COMM_WORLD};
   const auto left_out = translate_deck(source, options.translate);
   if (options.translate)
     {

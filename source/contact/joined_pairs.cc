@@ -1,5 +1,6 @@
 #include <snug/contact/joined_pairs.h>
 #include <snug/faces/nodal_normals.h>
+#include <snug/geometry/face_list.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -44,7 +45,7 @@ std::string sum_of(const std::vector<std::string> &names)
 {
   std::vector<std::string> different;
   for (const auto &side : names)
-    for (const auto &name : faces_of_side(side))
+    for (const auto &name : geometry::face_list(side))
       if (std::find(different.begin(), different.end(), name) == different.end())
         different.push_back(name);
   std::string result;

@@ -161,7 +161,7 @@ private:
     const auto &body = bodies.all()[b];
     write("\nsubsection Body " + body.name);
     write_entry({"Mesh", "file"});
-    write_entry({"Mesh file", file});
+    write_entry({"File", file});
     write_entry({"Mesh regions", body.group});
     for (const auto &[set, same] : body.alias)
       if (set != same)

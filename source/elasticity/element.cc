@@ -143,11 +143,12 @@ std::vector<dealii::SymmetricTensor<2, 3>>
 Element<dim>::stresses(const Nodes                                 &X,
                        const Material                              &material,
                        const Nodes                                 &u,
-                       const std::vector<mesh::LagrangePoint<dim>> &shapes) const
+                       const std::vector<mesh::LagrangePoint<dim>> &shapes,
+                       const ThermalStrain<dim>                    &thermal) const
 {
   std::vector<dealii::SymmetricTensor<2, 3>> result;
   result.reserve(shapes.size());
-  if (formulation == Formulation::standard)
+  if (formulation == Formulation::standard && !thermal)
     {
       for (const auto &shape : shapes)
         result.push_back(cauchy_stress(material, strain(idealization, material,
@@ -166,6 +167,8 @@ Element<dim>::stresses(const Nodes                                 &X,
   const auto states = point_states(points, material, u);
   for (unsigned int q = first; q < states.size(); ++q)
     result.push_back(states[q].stress);
+  if (thermal)
+    subtract_thermal(points, material, thermal, result);
   return result;
 }
 

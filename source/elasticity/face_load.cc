@@ -98,6 +98,16 @@ dealii::Tensor<1, dim> traction(const FaceLoadValues<dim> &load, unsigned int q)
 }
 } // namespace
 
+template <int dim>
+dealii::Tensor<1, dim>
+ConcentratedForce<dim>::vector(const std::vector<dealii::Tensor<1, dim>> &X) const
+{
+  dealii::Tensor<1, dim> vector;
+  for (unsigned int a = 0; a < X.size(); ++a)
+    vector += (*piece * shape.gradient[a]) * X[a];
+  return vector;
+}
+
 /// Use degree + 1 Gauss points per direction.
 template <int dim>
 FaceLoad<dim>::FaceLoad(const unsigned int degree, const mesh::Idealization &idealization)
@@ -128,6 +138,9 @@ void FaceLoad<dim>::force(const Nodes &X, const FaceLoadValues<dim> &load, Nodes
       for (unsigned int a = 0; a < X.size(); ++a)
         f[a] += gauss[q].value[a] * force;
     }
+  for (const auto &at : load.concentrated)
+    for (unsigned int a = 0; a < X.size(); ++a)
+      f[a] += at.shape.value[a] * at.total(X);
 }
 
 template <int dim>
@@ -152,6 +165,14 @@ void FaceLoad<dim>::force_derivative(const Nodes               &X,
       for (unsigned int a = 0; a < X.size(); ++a)
         f[a] += gauss[q].value[a] * force_derivative;
     }
+  for (const auto &at : load.concentrated)
+    if (at.piece)
+      {
+        const auto   vector = at.vector(X);
+        const double length = vector * at.vector(V) / vector.norm();
+        for (unsigned int a = 0; a < X.size(); ++a)
+          f[a] += at.shape.value[a] * length * at.force;
+      }
 }
 
 /// Compute the gradient without the linear traction of a resultant. That traction depends on the
@@ -175,6 +196,14 @@ void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
                                    pressure(load, q) * displacement),
                                 gradient);
     }
+  for (const auto &at : load.concentrated)
+    if (at.piece)
+      {
+        const auto   vector = at.vector(X);
+        const double work   = factor * (interpolate<dim>(at.shape, u) * at.force) / vector.norm();
+        for (unsigned int a = 0; a < X.size(); ++a)
+          gradient[a] += work * (*at.piece * at.shape.gradient[a]) * vector;
+      }
 }
 
 /// Add the share of one face. kappa and k contain the derivatives of A, c and I over the whole
@@ -285,6 +314,8 @@ std::vector<double> FaceLoad<dim>::areas(const Nodes &X) const
   return areas;
 }
 
+template struct ConcentratedForce<2>;
+template struct ConcentratedForce<3>;
 template class FaceLoad<2>;
 template class FaceLoad<3>;
 } // namespace snug::elasticity

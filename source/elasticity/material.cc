@@ -10,6 +10,9 @@ void Material::declare(Entries &entries)
               "The Poisson's ratio, above -1 and below 0.5.");
   entries.add("Density", density, at_least(0.),
               "The mass per volume, for gravity and the quantity mass. Units: mass/length^3.");
+  entries.add("Expansion", expansion,
+              "The coefficient of thermal expansion, the strain per 'Temperature'. Units: "
+              "1/temperature.");
 }
 
 void Material::check(const SectionCheck &section) const

@@ -17,52 +17,64 @@ VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
 
 /// Return s = 2 mu dev e.
 template <int dim>
-dealii::SymmetricTensor<2, 3> VonMisesPower<dim>::deviator_at(const CellPoint<dim> &point,
-                                                              const Material       &material,
-                                                              const Nodes          &u) const
+dealii::SymmetricTensor<2, 3>
+VonMisesPower<dim>::deviator_at(const CellPoint<dim>     &point,
+                                const Material           &material,
+                                const Nodes              &u,
+                                const ThermalStrain<dim> &thermal) const
 {
-  return 2. * material.lame_mu() * deviator(strain(idealization, material, point.gradient(u)));
+  auto gradient = point.gradient(u);
+  if (thermal)
+    gradient -= thermal(point.shape) * dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
+  return 2. * material.lame_mu() * deviator(strain(idealization, material, gradient));
 }
 
 /// Return the maximum stress. It is not smooth in u and X, so use it for scales and reports, not
 /// for gradients.
 template <int dim>
-double VonMisesPower<dim>::largest(const Nodes &X, const Material &material, const Nodes &u) const
+double VonMisesPower<dim>::largest(const Nodes              &X,
+                                   const Material           &material,
+                                   const Nodes              &u,
+                                   const ThermalStrain<dim> &thermal) const
 {
   double result = 0.;
   for (const auto &shape : gauss)
     {
       const CellPoint<dim> point(shape, X, idealization);
-      result = std::max(result, von_mises(deviator_at(point, material, u)));
+      result = std::max(result, von_mises(deviator_at(point, material, u, thermal)));
     }
   return result;
 }
 
 template <int dim>
-double VonMisesPower<dim>::value(const Nodes &X, const Material &material, const Nodes &u) const
+double VonMisesPower<dim>::value(const Nodes              &X,
+                                 const Material           &material,
+                                 const Nodes              &u,
+                                 const ThermalStrain<dim> &thermal) const
 {
   double result = 0.;
   for (const auto &shape : gauss)
     {
       const CellPoint<dim> point(shape, X, idealization);
-      result += std::pow(von_mises(deviator_at(point, material, u)) / scale, p) * point.dV;
+      result += std::pow(von_mises(deviator_at(point, material, u, thermal)) / scale, p) * point.dV;
     }
   return result;
 }
 
 template <int dim>
-void VonMisesPower<dim>::add_gradients(const Nodes    &X,
-                                       const Material &material,
-                                       const Nodes    &u,
-                                       const double    factor,
-                                       Nodes          &by_u,
-                                       Nodes          &by_X) const
+void VonMisesPower<dim>::add_gradients(const Nodes              &X,
+                                       const Material           &material,
+                                       const Nodes              &u,
+                                       const double              factor,
+                                       Nodes                    &by_u,
+                                       Nodes                    &by_X,
+                                       const ThermalStrain<dim> &thermal) const
 {
   const auto identity = dealii::unit_symmetric_tensor<3>();
   for (const auto &shape : gauss)
     {
       const CellPoint<dim> point(shape, X, idealization);
-      const auto           s      = deviator_at(point, material, u);
+      const auto           s      = deviator_at(point, material, u, thermal);
       const double         stress = von_mises(s) / scale;
       // The gradient is zero here, but stress^(p - 2) would be infinite for p < 2.
       if (stress == 0.)

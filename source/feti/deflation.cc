@@ -56,7 +56,8 @@ values_on(const NeighbourhoodRows &rows, const RowForces &raw, const unsigned in
 DeflationStructure::DeflationStructure(const CoarseStructure &the_coarse,
                                        const unsigned int     n_subdomains,
                                        std::vector<RowForces> the_raw,
-                                       const unsigned int     coarse_ranks)
+                                       const unsigned int     coarse_ranks,
+                                       const qp::RowSet      &rows)
   : coarse(the_coarse)
   , rank_of(coarse.table.first, coarse.layout.communicator())
   , raw(std::move(the_raw))
@@ -76,18 +77,18 @@ DeflationStructure::DeflationStructure(const CoarseStructure &the_coarse,
   // problem is replicated. A group of ranks factorizes by MUMPS instead.
   factors = FactorPool(MatrixKind::soft_modes, Factorization::CHOLMOD, nullptr, nullptr,
                        coarse_group(comm, n_vectors, MatrixKind::soft_modes, coarse_ranks));
-  count_subdomains();
+  count_subdomains(rows);
   find_parts();
   build_pattern();
 }
 
-/// Find the number of subdomains of each row, and the lowest of these subdomains.
-void DeflationStructure::count_subdomains()
+/// Find the number of subdomains of each of the @p rows, and the lowest of these subdomains.
+void DeflationStructure::count_subdomains(const qp::RowSet &rows)
 {
   const RowLayout &layout = coarse.layout;
   qp::MultiVector  owned(layout.n_owned(), 2);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (!layout.contact_rows()[row])
+    if (rows[row])
       {
         const auto &unknowns = layout.entry_unknowns();
         const auto  begin = layout.entry_start()[row], end = layout.entry_start()[row + 1];

@@ -1,6 +1,5 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/jump_operator.h>
-#include <snug/qp/row_set.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -25,12 +24,12 @@ struct Groups
   std::size_t stride; ///< distance between the numbers of consecutive entries
 };
 
-Groups groups_of(const RowLayout &layout, const std::size_t stride)
+Groups groups_of(const RowLayout &layout, const std::size_t stride, const qp::RowSet &rows)
 {
   const auto                                  &start = layout.entry_start();
   std::map<Unknown, std::vector<unsigned int>> entries;
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (!layout.contact_rows()[row])
+    if (rows[row])
       for (unsigned int e = start[row]; e < start[row + 1]; ++e)
         entries[layout.entry_unknowns()[e]].push_back(e);
   Groups groups;
@@ -78,7 +77,8 @@ Groups groups_of(const RowLayout &layout, const std::size_t stride)
 qp::MultiVector row_forces_of(const RowLayout           &layout,
                               const RowGram             &gram,
                               const Groups              &groups,
-                              const std::vector<double> &entries)
+                              const std::vector<double> &entries,
+                              const qp::RowSet          &rows)
 {
   std::size_t width = 0;
   for (const auto &members : groups.members)
@@ -88,7 +88,7 @@ qp::MultiVector row_forces_of(const RowLayout           &layout,
     for (unsigned int k = 0; k < members.size(); ++k)
       for (const unsigned int e : groups.entries[members[k]])
         X(groups.row_of_entry[e], k) = entries[e * groups.stride] * entries[e * groups.stride + 1];
-  RowGram::Factor(gram, qp::complement(layout.contact_rows())).solve(X);
+  RowGram::Factor(gram, rows).solve(X);
   return X;
 }
 
@@ -142,11 +142,12 @@ std::vector<JumpColumns> jump_operator(const RowLayout           &layout,
                                        const std::vector<double> &entries,
                                        const unsigned int         stride,
                                        const unsigned int         first,
-                                       const unsigned int         n_subdomains)
+                                       const unsigned int         n_subdomains,
+                                       const qp::RowSet          &rows)
 {
   const MPI_Comm                      comm   = layout.communicator();
-  const auto                          groups = groups_of(layout, stride);
-  const auto                          X      = row_forces_of(layout, gram, groups, entries);
+  const auto                          groups = groups_of(layout, stride, rows);
+  const auto                          X      = row_forces_of(layout, gram, groups, entries, rows);
   const SubdomainRanks                rank_of(first, comm);
   std::map<unsigned int, JumpColumns> out;
   for (const auto &members : groups.members)

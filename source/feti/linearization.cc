@@ -1,5 +1,6 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/linearization.h>
+#include <snug/qp/row_set.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -30,10 +31,12 @@ bool DualStructure::seeks_soft_modes(const std::vector<SubdomainSystem> &systems
 Linearization::Linearization(const DualStructure                &the_structure,
                              const std::vector<SubdomainSystem> &the_systems,
                              ConstraintRows                      B,
-                             SharedOperators                     shared)
+                             SharedOperators                     shared,
+                             std::vector<double>                 of_springs)
   : structure(the_structure)
   , systems(the_systems)
   , rows(std::move(B))
+  , D(std::move(of_springs))
   , operators(std::move(shared))
   , F_diagonal(n_owned(), 0.)
 {
@@ -45,7 +48,7 @@ Linearization::Linearization(const DualStructure                &the_structure,
     // G and G G' follow B, 1/D and their products with R.
     coarse_space = std::make_unique<CoarseSpace>(structure.coarse, entries, 2, systems);
     throw_collectively(context().communicator(), [&]() {
-      gram = std::make_unique<RowGram>(structure.gram, entries, 2 + table().n_modes);
+      gram = std::make_unique<RowGram>(structure.gram, entries, 2 + table().n_modes, ground);
     });
     weight_rows();
   }
@@ -55,7 +58,8 @@ Linearization::Linearization(const DualStructure                &the_structure,
     soft_modes = std::make_shared<const DeflationStructure>(structure.coarse,
                                                             narrow<unsigned int>(systems.size()),
                                                             find_soft_modes(entries),
-                                                            structure.parameters.coarse_ranks);
+                                                            structure.parameters.coarse_ranks,
+                                                            rows_of_soft_modes());
   if (soft_modes->n_vectors == 0)
     return;
   if (!vectors)
@@ -103,7 +107,27 @@ std::vector<double> Linearization::gather_entries()
         if (structure.parameters.scaling != Scaling::stiffness)
           entry[1] = 1.;
       }
+  weight_ground(gathered);
   return gathered;
+}
+
+/// Set the weights of the unknowns of springs, which are D for scaling by stiffness. For scaling by
+/// multiplicity they are D times the stiffness of the body, relative to the weights 1 of its
+/// unknowns.
+void Linearization::weight_ground(const std::vector<double> &entries)
+{
+  const std::size_t width = 2 + table().n_modes;
+  const auto       &start = layout().entry_start();
+  ground                  = D;
+  for (unsigned int row = 0; row < D.size(); ++row)
+    if (D[row] > 0.)
+      {
+        double square = 0.; // of the row, weighted
+        for (unsigned int e = start[row]; e < start[row + 1]; ++e)
+          square += entries[e * width] * entries[e * width] * entries[e * width + 1];
+        ground[row] *= square / F_diagonal[row];
+        F_diagonal[row] += D[row];
+      }
 }
 
 void Linearization::weight_rows()
@@ -121,6 +145,41 @@ void Linearization::weight_rows()
       }
 }
 
+/// Return the equality rows without springs. With zeros on springs, products of the vectors of soft
+/// modes with F need no D.
+qp::RowSet Linearization::rows_of_soft_modes() const
+{
+  auto result = qp::complement(contact_rows());
+  for (unsigned int row = 0; row < D.size(); ++row)
+    if (D[row] > 0.)
+      result[row] = 0;
+  return result;
+}
+
+/// Return the columns of the jump operator without springs, whose rows would couple all unknowns of
+/// a boundary.
+std::vector<JumpColumns> Linearization::jumps(const std::vector<double> &entries) const
+{
+  const unsigned int first = table().first, width = 2 + table().n_modes;
+  const auto         n = narrow<unsigned int>(systems.size());
+  if (!qp::any(!D.empty(), context().communicator()))
+    return jump_operator(layout(), *gram, entries, width, first, n, rows_of_soft_modes());
+  auto                others = entries;
+  std::vector<double> separate(D.size(), 0.);
+  for (unsigned int row = 0; row < D.size(); ++row)
+    if (D[row] > 0.)
+      {
+        separate[row] = 1.;
+        for (unsigned int e = layout().entry_start()[row]; e < layout().entry_start()[row + 1]; ++e)
+          others[std::size_t(e) * width] = 0.;
+      }
+  std::unique_ptr<const RowGram> of_others;
+  throw_collectively(context().communicator(), [&]() {
+    of_others = std::make_unique<RowGram>(structure.gram, others, width, separate);
+  });
+  return jump_operator(layout(), *of_others, others, width, first, n, rows_of_soft_modes());
+}
+
 /// Return the row forces of the soft modes of the subdomains of this rank.
 std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> &entries) const
 {
@@ -128,8 +187,7 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   if (!structure.seeks_soft_modes(systems))
     return forces;
   const unsigned int first   = table().first;
-  const auto         columns = jump_operator(layout(), *gram, entries, 2 + table().n_modes, first,
-                                             narrow<unsigned int>(systems.size()));
+  const auto         columns = jumps(entries);
   const auto         neighbours =
     stiffness_of_neighbours(systems, columns, first, context().communicator());
   double largest = 0.;
@@ -156,13 +214,24 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   return forces;
 }
 
-/// Return F x = B K^+ B' x. K^+ is one of many generalized inverses. The F of another one differs
-/// by some G'X + X'G, which vanishes in P F P.
+/// Return F x = B K^+ B' x + D x. K^+ is one of many generalized inverses. The F of another one
+/// differs by some G'X + X'G, which vanishes in P F P.
 qp::MultiVector Linearization::apply(const qp::MultiVector &x) const
 {
   // A block of k columns counts as k F-mults, though it is one pass over the factors.
   context().work.f_mults += x.n_columns();
-  return multiply_B(apply_inverse(multiply_Bt(x)));
+  auto y = multiply_B(apply_inverse(multiply_Bt(x)));
+  add_compliance(1., x, y);
+  return y;
+}
+
+void Linearization::add_compliance(const double           factor,
+                                   const qp::MultiVector &x,
+                                   qp::MultiVector       &y) const
+{
+  for (unsigned int k = 0; k < x.n_columns(); ++k)
+    for (unsigned int row = 0; row < D.size(); ++row)
+      y(row, k) += factor * D[row] * x(row, k);
 }
 
 /// Return the number of columns of @p v. A rank without subdomains has no vectors and takes the
@@ -269,7 +338,8 @@ std::vector<double> Linearization::gross_rigid_part(const PrimalVectors &b) cons
   return largest;
 }
 
-/// Set x <- B D^-1 S D^-1 B' x, without the factors W^-1 on both sides, which belong to a face.
+/// Set x <- B D^-1 S D^-1 B' x, without the factors W^-1 on both sides, which belong to a face. The
+/// sum over subdomains contains the springs with S = 1/D.
 void Linearization::precondition(qp::MultiVector &x) const
 {
   const qp::MultiVector local = layout().to_local(x);
@@ -282,6 +352,11 @@ void Linearization::precondition(qp::MultiVector &x) const
       add_transposed(weighted_B[s], local, boundary);
       add_product(weighted_B[s], schur.apply(boundary), result);
     }
-  x = layout().to_owned(result);
+  const auto of_springs = x;
+  x                     = layout().to_owned(result);
+  for (unsigned int j = 0; j < k; ++j)
+    for (unsigned int row = 0; row < D.size(); ++row)
+      if (D[row] > 0.)
+        x(row, j) += ground[row] * ground[row] / D[row] * of_springs(row, j);
 }
 } // namespace snug::feti

@@ -99,7 +99,8 @@ RowGramStructure::RowGramStructure(const RowLayout &layout)
 
 RowGram::RowGram(const RowGramStructure    &the_structure,
                  const std::vector<double> &entries,
-                 const unsigned int         stride)
+                 const unsigned int         stride,
+                 const std::vector<double> &ground)
   : structure(the_structure), contact(structure.contact.pattern)
 {
   CsrMatrix of_fixed(structure.fixed.pattern);
@@ -115,6 +116,12 @@ RowGram::RowGram(const RowGramStructure    &the_structure,
                                                       entries[std::size_t(b) * stride] *
                                                       entries[std::size_t(a) * stride + 1];
         }
+  for (unsigned int row = 0; row < ground.size(); ++row)
+    {
+      const auto [in_contact, i] = structure.place[row];
+      auto &A                    = in_contact ? contact : of_fixed;
+      A.values[A.position(i, i)] += ground[row];
+    }
   if (!structure.fixed.rows.empty())
     fixed = structure.factors.factorize(of_fixed, "B D^-1 B' of the gluing rows");
 }

@@ -44,6 +44,7 @@ std::unique_ptr<BodyGeometry<dim>> made(const BodyMeshParameters &parameters)
                                                        : make_shell(parameters);
         break;
       case Source::file:
+      case Source::cad:
         return make_imported<dim>(parameters);
     }
   // The body exists only in the other dimension, which is 5 - dim.
@@ -71,7 +72,9 @@ Names names(Source)
                "quarter (y, z > 0) bottom and front, an eighth bottom, front and left."},
     {"shell",
      "3D sphere with a concentric spherical hole. Boundaries: those of sphere, and inner."},
-    {"file", "mesh file. Boundaries have the names of the file, and free if they have no name."}};
+    {"file", "mesh file. Boundaries have the names of the file, and free if they have no name."},
+    {"cad", "solid of a CAD file, in 2D a plane face, which the program gmsh meshes by elements of "
+            "second order. Boundaries have the names of faces of the file, or numbers: face-3."}};
 }
 
 template <int dim>

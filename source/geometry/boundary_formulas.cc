@@ -5,12 +5,18 @@
 
 #include <deal.II/base/geometry_info.h>
 
+#include <cmath>
+#include <limits>
+
 namespace snug::geometry {
 namespace {
 const std::string entry = "Boundary formulas";
 
 /// Part of the way from a vertex to the centre of its face at which formulas are evaluated.
 const double inside = 1e-9;
+
+/// Maximum number of equal parts of an edge that are proposed.
+const unsigned int most_parts = 20;
 
 /// Number of bisections of an edge to find where a formula changes its sign.
 const unsigned int n_bisections = 40;
@@ -31,6 +37,18 @@ struct CutFaces
   unsigned int       n = 0;
   dealii::Point<dim> place;       ///< where the formula changes its sign on the first one
   double             length = 0.; ///< of the edge there
+  /// part of the edge up to the place; not a number on a diagonal of the face
+  double part = std::numeric_limits<double>::quiet_NaN();
+
+  /// Return the size of cells that divides the edge at the place, or 0 if no small number of equal
+  /// cells does.
+  double fitting_size() const
+  {
+    for (unsigned int n = 2; n <= most_parts; ++n)
+      if (std::abs(n * part - std::round(n * part)) < 1e-6 * n)
+        return length / n;
+    return 0.;
+  }
 };
 
 /// Return the boundary before the formula.
@@ -89,6 +107,14 @@ public:
   {
     const unsigned int n = names.size() - added.size();
     return this->body->boundary_shape(boundary < n ? boundary : added[boundary - n].of);
+  }
+
+  bool is_box_side(const unsigned int boundary) const override
+  {
+    return boundary < names.size() - added.size() && this->body->is_box_side(boundary) &&
+           std::none_of(
+             added.begin(), added.end(),
+             [boundary](const auto &part) { return part.of == boundary; });
   }
 
 private:
@@ -155,6 +181,11 @@ private:
             (formula.value(middle) > 0. ? in : out) = middle;
           }
         cut.place = in;
+        // Corners 0 and 3, and 1 and 2, are opposite to each other.
+        const bool is_diagonal =
+          dim == 3 && first - positive.begin() + (last - positive.begin()) == 3;
+        if (!is_diagonal)
+          cut.part = in.distance(places[first - positive.begin()]) / cut.length;
       }
     return n == std::ptrdiff_t(corners.size());
   }
@@ -162,10 +193,14 @@ private:
   static void check(const std::string &value, const unsigned int n_faces, const CutFaces<dim> &cut)
   {
     std::ostringstream text;
+    const double       size = cut.fitting_size();
     if (cut.n > 0)
       text << "must follow the edges of faces, but cuts " << counted(cut.n, "face")
-           << ", the first at (" << cut.place << "), on an edge of the length " << cut.length
-           << "; move the nodes there by the numbers or sizes of cells";
+           << ", the first at (" << cut.place << "), on an edge of the length " << cut.length;
+    if (size > 0.)
+      text << "; cells of the size " << size << " would fit there";
+    else if (cut.n > 0)
+      text << "; move the nodes there by the numbers or sizes of cells";
     else if (n_faces == 0)
       text << "must be positive on a face of the mesh before refinement";
     if (!text.str().empty())

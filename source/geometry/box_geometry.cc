@@ -91,6 +91,8 @@ public:
     return result;
   }
 
+  bool is_box_side(const unsigned int) const override { return true; }
+
   dealii::Point<dim> box_fraction(const dealii::Point<dim> &logical) const override
   {
     dealii::Point<dim> fraction;

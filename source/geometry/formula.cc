@@ -4,9 +4,12 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace snug::geometry {
@@ -70,6 +73,47 @@ double second_difference(const Function &f, const double h)
 
 /// Constants that formulas may contain.
 const std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
+
+/// Return the identifiers in a formula. The e of a number is none.
+std::set<std::string> identifiers(const std::string &text)
+{
+  const auto is_letter = [](const unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
+  const auto is_part = [&](const unsigned char c) { return is_letter(c) || std::isdigit(c) != 0; };
+  std::set<std::string> result;
+  for (auto begin = text.begin(); begin != text.end();)
+    {
+      const auto end = std::find_if_not(begin, text.end(), is_part);
+      if (begin != end && is_letter(*begin))
+        result.insert({begin, end});
+      begin = end == begin ? begin + 1 : end;
+    }
+  return result;
+}
+
+/// Return the error of a formula of @p variables with the message of the parser.
+InputError no_formula(const std::string           &entry,
+                      const std::string           &text,
+                      const std::string           &variables,
+                      const dealii::ExceptionBase &error)
+{
+  return bad_entry(entry, text,
+                   "must be a formula of " + variables + " (" + parser_message(error) + ")");
+}
+
+/// For 1/0 or sqrt(-1), muParser returns inf or nan without an error. Values beyond 1e60 would
+/// overflow in later computations. @throws InputError
+template <int dim>
+void require_finite(const std::string            &entry,
+                    const std::string            &text,
+                    const double                  value,
+                    const dealii::Tensor<1, dim> &place)
+{
+  if (std::abs(value) <= 1e60)
+    return;
+  std::ostringstream where;
+  where << "must be finite everywhere, at most 1e60 in size, but is not at (" << place << ")";
+  throw bad_entry(entry, text, where.str());
+}
 } // namespace
 
 std::optional<double> constant_value(const std::string &text)
@@ -103,8 +147,7 @@ Formula<dim>::Formula(const std::string &entry, const std::string &text)
     }
   catch (const dealii::ExceptionBase &error)
     {
-      throw bad_entry(entry, text,
-                      "must be a formula of " + variables + " (" + parser_message(error) + ")");
+      throw no_formula(entry, text, variables, error);
     }
 }
 
@@ -119,14 +162,7 @@ template <int dim>
 double Formula<dim>::value(const dealii::Point<dim> &point) const
 {
   const double value = parser->value(point);
-  // For 1/0 or sqrt(-1), muParser returns inf or nan without an error. Values beyond 1e60 would
-  // overflow in later computations.
-  if (!(std::abs(value) <= 1e60))
-    {
-      std::ostringstream where;
-      where << "must be finite everywhere, at most 1e60 in size, but is not at (" << point << ")";
-      throw bad_entry(entry, text, where.str());
-    }
+  require_finite<dim>(entry, text, value, point);
   return value;
 }
 
@@ -175,6 +211,57 @@ dealii::Tensor<2, dim> Formula<dim>::hessian(const dealii::Point<dim> &point,
           step);
     }
   return result;
+}
+
+VariableFormula::VariableFormula(const std::string              &entry,
+                                 const std::string              &text,
+                                 const std::vector<std::string> &variables)
+  : entry(entry), text(text), parser(std::make_unique<dealii::FunctionParser<3>>())
+{
+  const auto found = identifiers(text);
+  for (unsigned int i = 0; i < variables.size(); ++i)
+    if (found.count(variables[i]) > 0)
+      contained.push_back(i);
+  // The parser has three coordinates and the time.
+  if (contained.size() > 4)
+    throw bad_entry(entry, text, "must contain at most 4 of the variables " + to_text(variables));
+  std::string names;
+  for (unsigned int k = 0; k < 4; ++k)
+    names += (k == 0 ? "" : ",") +
+             (k < contained.size() ? variables[contained[k]] : "no_variable_" + std::to_string(k));
+  try
+    {
+      const SilentErrors guard;
+      parser->initialize(names, text, constants, true);
+      // The formula is evaluated once, because muParser finds unknown names only on evaluation.
+      parser->value(dealii::Point<3>());
+    }
+  catch (const dealii::ExceptionBase &error)
+    {
+      throw no_formula(entry, text, to_text(variables), error);
+    }
+}
+
+VariableFormula::~VariableFormula() = default;
+
+VariableFormula::VariableFormula(VariableFormula &&) noexcept = default;
+
+bool VariableFormula::contains(const unsigned int variable) const
+{
+  return std::find(contained.begin(), contained.end(), variable) != contained.end();
+}
+
+double VariableFormula::value(const std::vector<double>  &values,
+                              const dealii::Tensor<1, 3> &place) const
+{
+  dealii::Point<3> point;
+  for (unsigned int k = 0; k < contained.size() && k < 3; ++k)
+    point[k] = values[contained[k]];
+  if (contained.size() == 4)
+    parser->set_time(values[contained[3]]);
+  const double value = parser->value(point);
+  require_finite<3>(entry, text, value, place);
+  return value;
 }
 
 void require_formula(const SectionCheck &section,

@@ -10,7 +10,7 @@ std::unique_ptr<BodyGeometry<dim>> make_imported(const BodyMeshParameters &param
   // The scene reads the files, because only the scene knows the directory of the files and the
   // lines of the entries.
   if (!parameters.imported)
-    throw bad_entry("Mesh file", parameters.file, "must be read before a mesh is made of it");
+    throw bad_entry("File", parameters.file, "must be read before a mesh is made of it");
   if constexpr (dim == 2)
     return std::make_unique<BlockGeometry<2>>(parameters.imported->flat);
   else

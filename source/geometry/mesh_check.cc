@@ -31,8 +31,8 @@ void check_box(const SectionCheck &section, const BodyMeshParameters &mesh)
 
 void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, const double cells)
 {
-  const bool file = mesh.source == Source::file;
-  require_coarse(section, cells, file ? "Mesh file" : "Cells",
+  const bool file = mesh.source == Source::file || mesh.source == Source::cad;
+  require_coarse(section, cells, file ? "File" : "Cells",
                  file ? mesh.file : to_text(mesh.round_cells));
   // p4est can number at most 2^31 nodes.
   section.require(mesh.refinements < 30 &&
@@ -109,6 +109,13 @@ void BodyMeshParameters::check(const SectionCheck &section, const bool axisymmet
                           "'Surface = " +
                             face.first + ": smooth' at any angle between facets");
     }
+  const bool is_cad = source == Source::cad;
+  for (const auto &[entry, value] : {std::make_pair("Mesh regions", to_text(regions)),
+                                     std::make_pair("Boundary names", to_text(boundary_numbers)),
+                                     std::make_pair("Surface", to_text(surfaces))})
+    section.require(!is_cad || value.empty(), entry, value,
+                    "is for mesh files; the faces of CAD files have names, numbers and their own "
+                    "surfaces");
   section.dimension == 2 ? check_in<2>(section, *this, axisymmetric)
                          : check_in<3>(section, *this, axisymmetric);
   section.require(local_refinements == 0 || !refine_where.empty(), "Refine where", refine_where,

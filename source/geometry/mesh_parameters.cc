@@ -69,10 +69,12 @@ void declare_round(Entries &entries, BodyMeshParameters &mesh)
 
 void declare_file(Entries &entries, BodyMeshParameters &mesh)
 {
-  entries.add("Mesh file", mesh.file, allowed("the path of a file"),
-              "The mesh file, relative to the parameter file: Gmsh .msh 2 or 4.1, or Abaqus .inp. "
-              "Triangles, tetrahedra and prisms are split into quadrilaterals and hexahedra. "
-              "'meshio convert -o gmsh22 part.vtk part.msh' converts other formats.");
+  entries.add("File", mesh.file, allowed("the path of a file"),
+              "The mesh file or CAD file, relative to the parameter file. Mesh files: Gmsh .msh 2 "
+              "or 4.1, or Abaqus .inp. Triangles, tetrahedra and prisms are split into "
+              "quadrilaterals and hexahedra. 'meshio convert -o gmsh22 part.vtk part.msh' converts "
+              "other formats. CAD files: STEP (.step, .stp), IGES (.iges, .igs) and BREP (.brep); "
+              "lengths of STEP and IGES files are converted to mm.");
   entries.add("Mesh regions", mesh.regions,
               "The groups of cells of the mesh file that form the body. An empty list means all "
               "cells.");
@@ -96,6 +98,37 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
         "a smooth surface with edges where facets meet at more than 30 degrees; facets that meet "
         "at 15 to 30 degrees are kept"}}),
     "The true surfaces of boundaries of a mesh file: 'nut: facets, bore: smooth'.");
+}
+
+void declare_cad(Entries &entries, BodyMeshParameters &mesh)
+{
+  entries.add("Solid", mesh.solid,
+              "The number of the solid of a CAD file that is the body, in 2D of the plane face. A "
+              "value of 0 means the only one.");
+  entries.add(
+    "CAD faces", access(mesh.cad_faces, ';'),
+    with_meanings(
+      allowed("a list 'boundary: faces; boundary: faces' of different boundaries, separated by "
+              "semicolons, with faces separated by +"),
+      {{"3", "face 3 of the CAD file, in 2D edge 3; '--validate' lists all faces"},
+       {"seat", "all faces with this name in the CAD file"},
+       {"chain 3, chain seat",
+        "the same faces and all faces that continue them without an edge: adjacent faces whose "
+        "normals differ by less than 0.5 degrees"}}),
+    "The boundaries that consist of several faces of a CAD file: 'race: 3 + 4 + 7; bore: chain 5'. "
+    "All other faces are boundaries with their name in the file, or face-3 for face 3 without a "
+    "name, in 2D edge-3.");
+  entries.add(
+    "Element size", mesh.element_size,
+    "The length of the edges of the elements of a CAD file, which has no default. Faces with a "
+    "radius of curvature R have elements of R/2, but at least a tenth of this size. Units: length, "
+    "before 'Scale'.");
+  entries.add("Face sizes", mesh.face_sizes, allowed("a list 'boundary: size, boundary: size'"),
+              "The size of the elements on boundaries of a CAD file: 'race: 0.1, bore: 0.5'. "
+              "Units: length, before 'Scale'.");
+  entries.add("Size growth", mesh.size_growth, above(0., 1.),
+              "The growth of the element size of a CAD file per distance from faces with smaller "
+              "elements.");
 }
 
 void declare_placement(Entries &entries, BodyMeshParameters &mesh)
@@ -153,6 +186,7 @@ void BodyMeshParameters::declare(Entries &entries)
   declare_box(entries, *this);
   declare_round(entries, *this);
   declare_file(entries, *this);
+  declare_cad(entries, *this);
   declare_placement(entries, *this);
   declare_regions(entries, *this);
   declare_refinement(entries, *this);

@@ -11,6 +11,8 @@ dealii::Point<dim> GeometryConstraints<dim>::onto(dealii::Point<dim> x) const
   // For surfaces at an angle below 6 degrees, the last digits of the surfaces would determine their
   // intersection.
   const double touching = 0.1;
+  if (first)
+    x = first->project(x);
   for (unsigned int turn = 0; turn < 30; ++turn)
     {
       std::vector<Vector> directions; // orthonormal, planes first
@@ -51,7 +53,7 @@ dealii::Tensor<1, dim> Curve<dim>::offset(const double t) const
 {
   const Point chord  = Point((1. - t) * a + t * b);
   Vector      result = t * (1. - t) * ((1. - t) * c[0] + t * c[1]);
-  if (!constraints.surfaces.empty())
+  if (constraints.first || !constraints.surfaces.empty())
     result = constraints.onto(chord + result) - chord;
   return this->scale == 1. ? result : this->scale * result;
 }
@@ -122,7 +124,10 @@ double FacetPatch::gap() const
   double result = 0.;
   for (unsigned int e = 0; e < sides.size(); ++e)
     for (const double t : {0., 0.25, 0.5, 0.75})
-      result = std::max(result, std::abs(surface->distance(on_chord(e, t) + offset(e, t))));
+      {
+        const Point x = on_chord(e, t) + offset(e, t);
+        result        = std::max(result, x.distance(surface->project(x)));
+      }
   return result;
 }
 

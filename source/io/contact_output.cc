@@ -1,6 +1,9 @@
 #include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
+#include <snug/faces/nodal_normals.h>
 #include <snug/io/contact_output.h>
+#include <snug/io/state_files.h>
+#include <snug/io/surface_pieces.h>
 #include <snug/io/text_file.h>
 #include <snug/io/vtu_grid.h>
 
@@ -8,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace snug::io {
@@ -97,71 +101,168 @@ std::vector<Quantity> quantities(const bool friction)
   return result;
 }
 
-/// Return the VTU text. A node on the edge of two pairs has a point in each, because each pair
-/// shows its own values on its own faces.
+/// This class makes the grids of the contact boundaries. A node on the edge of two pairs has a
+/// point in each, because each pair shows its own values on its own faces.
 template <int dim>
-std::string faces_text(const Sources<dim>             &sources,
-                       const state::ContactState<dim> &state,
-                       const SurfaceFields<dim>       &fields,
-                       const unsigned int              compression)
+class FaceBlocks
 {
-  const auto                                   &pairs = sources.pairs;
-  std::vector<std::vector<state::ContactPoint>> nodal;
-  const auto                                    candidate = candidates<dim>(sources);
-  for (unsigned int p = 0; p < pairs.size(); ++p)
-    nodal.push_back(nodal_points<dim>(sources, p, state.contact));
-  // The values below are in the order of these quantities.
-  const bool            friction = state.has_friction();
-  VtuGrid<dim - 1, dim> grid(quantities<dim>(friction), {});
-  std::map<std::tuple<unsigned int, unsigned int, int>, unsigned int> number; // node, pairs
-  for (const auto &face : sources.surface.faces())
+public:
+  FaceBlocks(const Sources<dim>             &sources,
+             const state::ContactState<dim> &state,
+             const SurfaceFields<dim>       &fields)
+    : sources(sources)
+    , fields(fields)
+    , friction(state.has_friction())
+    , candidate(candidates<dim>(sources))
+    , empty(quantities<dim>(friction), {})
+  {
+    for (unsigned int p = 0; p < sources.pairs.size(); ++p)
+      nodal.push_back(nodal_points<dim>(sources, p, state.contact));
+    for (const auto &face : sources.surface.faces())
+      add(face);
+  }
+
+  std::string declarations() const { return empty.declarations(); }
+
+  /// Return the blocks with the names of bodies and boundaries, with their cells on rank 0 alone,
+  /// because all ranks have all faces.
+  std::vector<Block> blocks(const std::vector<std::string> &body_names,
+                            const unsigned int              compression) const
+  {
+    const bool writes = dealii::Utilities::MPI::this_mpi_process(sources.mesh.communicator()) == 0;
+    std::vector<Block> result;
+    for (const auto &[side, of_side] : grids)
+      result.push_back({"boundaries",
+                        body_names[side.first] + '.' +
+                          sources.mesh.geometry(side.first).boundary_names()[side.second],
+                        writes ? of_side.grid.piece(compression) : std::string()});
+    return result;
+  }
+
+private:
+  using Face = typename mesh::Surface<dim>::Face;
+
+  struct Grid
+  {
+    VtuGrid<dim - 1, dim>                grid;
+    std::map<unsigned int, unsigned int> number; ///< of the point of a node
+  };
+
+  void add(const Face &face)
+  {
+    const auto &pairs = sources.pairs;
+    const auto  found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
+      return contact::is_on(face, of.pair.slave);
+    });
+    // A face shows one pair, which is its first pair. All faces of a boundary have the same one.
+    const unsigned int p = found - pairs.begin();
+    auto &[grid, number] =
+      grids.try_emplace({face.body, face.boundary}, Grid{empty, {}}).first->second;
+    std::vector<unsigned int> corners;
+    for (const unsigned int node : face.nodes)
+      {
+        const auto [place, is_new] = number.try_emplace(node, 0);
+        if (is_new)
+          place->second = grid.add_point(fields.positions[node], values(face, node, p));
+        corners.push_back(place->second);
+      }
+    grid.add_cell(corners, {});
+  }
+
+  /// Return the values of a node in the order of quantities(). @param[in] p The joined pair of the
+  /// slave side, or the number of pairs.
+  std::vector<double> values(const Face &face, const unsigned int node, const unsigned int p) const
+  {
+    // A master side may share its edge with a slave side.
+    const bool slave = p < nodal.size();
+    const int  pair =
+      slave ? narrow<int>(sources.pairs[p].pair_of({face.body, face.boundary}, {})) : -1;
+    const auto          point  = slave ? nodal[p][node] : state::ContactPoint();
+    std::vector<double> result = {point.pressure,
+                                  point.gap,
+                                  point.force,
+                                  point.area,
+                                  double(point.active),
+                                  double(point.weak),
+                                  double(slave && candidate[p][node]),
+                                  double(slave),
+                                  double(pair),
+                                  double(face.body)};
+    const auto          append = [&](const auto &vector) {
+      for (unsigned int c = 0; c < dim; ++c)
+        result.push_back(vector[c]);
+    };
+    append(fields.displacement[node]);
+    append(fields.positions[node] - fields.reference[node]);
+    if (friction)
+      {
+        append(point.traction);
+        append(point.slip);
+        result.push_back(double(point.friction));
+      }
+    return result;
+  }
+
+  const Sources<dim>                                   &sources;
+  const SurfaceFields<dim>                             &fields;
+  const bool                                            friction;
+  const std::vector<std::vector<bool>>                  candidate;
+  const VtuGrid<dim - 1, dim>                           empty;
+  std::vector<std::vector<state::ContactPoint>>         nodal; ///< per joined pair and node
+  std::map<std::pair<unsigned int, unsigned int>, Grid> grids; ///< of (body, boundary)
+};
+
+/// Places of the surface nodes along the contact faces.
+template <int dim>
+struct Places
+{
+  std::vector<unsigned int>          piece, place; ///< piece of each node, its place in the piece
+  std::vector<double>                arc_length;   ///< in 2D from the begin of the piece [length]
+  typename mesh::Surface<dim>::Field normals;      ///< unit outward normals
+};
+
+/// Return the places of the nodes of slave sides. A node between two pieces belongs to the first.
+template <int dim>
+Places<dim> places_of(const Sources<dim>                       &sources,
+                      const typename mesh::Surface<dim>::Field &positions)
+{
+  const auto                 &surface = sources.surface;
+  const faces::FaceShape<dim> shape(sources.mesh.degree());
+  const auto                  pieces = surface_pieces(surface);
+  const unsigned int          none   = narrow<unsigned int>(pieces.size());
+  Places<dim>                 result{std::vector<unsigned int>(surface.n_nodes(), none),
+                     std::vector<unsigned int>(surface.n_nodes(), 0),
+                     std::vector<double>(surface.n_nodes(), 0.),
+                     typename mesh::Surface<dim>::Field(surface.n_nodes())};
+  std::vector<bool>           has_row(surface.n_nodes(), false);
+  for (const auto &row : sources.places)
+    has_row[row.slave] = true;
+  for (unsigned int p = 0; p < none; ++p)
     {
-      const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
-        return contact::is_on(face, of.pair.slave);
-      });
-      // A face shows one pair, which is its first pair.
-      const bool         slave = found != pairs.end();
-      const unsigned int p     = found - pairs.begin();
-      const int pair = slave ? narrow<int>(found->pair_of({face.body, face.boundary}, {})) : -1;
-      std::vector<unsigned int> corners;
-      for (const unsigned int node : face.nodes)
+      const auto &nodes = pieces[p].nodes;
+      if (std::none_of(nodes.begin(), nodes.end(), [&](unsigned int n) { return has_row[n]; }))
+        continue;
+      const auto normals =
+        faces::NodalNormals<dim>(surface, pieces[p].faces, shape, positions).normals();
+      double       arc_length = 0.;
+      unsigned int place = 0, previous = pieces[p].nodes.front();
+      for (const unsigned int node : pieces[p].nodes)
         {
-          const auto [place, is_new] = number.try_emplace({node, p, pair}, 0);
-          if (is_new)
-            {
-              // A master side may share its edge with a slave side.
-              const auto          point  = slave ? nodal[p][node] : state::ContactPoint();
-              std::vector<double> values = {point.pressure,
-                                            point.gap,
-                                            point.force,
-                                            point.area,
-                                            double(point.active),
-                                            double(point.weak),
-                                            double(slave && candidate[p][node]),
-                                            double(slave),
-                                            double(pair),
-                                            double(face.body)};
-              for (unsigned int c = 0; c < dim; ++c)
-                values.push_back(fields.displacement[node][c]);
-              for (unsigned int c = 0; c < dim; ++c)
-                values.push_back(fields.positions[node][c] - fields.reference[node][c]);
-              for (unsigned int c = 0; friction && c < dim; ++c)
-                values.push_back(point.traction[c]);
-              for (unsigned int c = 0; friction && c < dim; ++c)
-                values.push_back(point.slip[c]);
-              if (friction)
-                values.push_back(double(point.friction));
-              place->second = grid.add_point(fields.positions[node], values);
-            }
-          corners.push_back(place->second);
+          arc_length += (positions[node] - positions[previous]).norm();
+          previous = node;
+          if (result.piece[node] != none)
+            continue;
+          result.piece[node]      = p;
+          result.place[node]      = place++;
+          result.arc_length[node] = arc_length;
+          result.normals[node]    = normals[node];
         }
-      grid.add_cell(corners, {});
     }
-  return vtu({grid.piece(compression)});
+  return result;
 }
 
-/// Return one line per row. Nodes of several pairs have several lines. Positions are those of the
-/// slaves.
+/// Return one line per row, sorted by pair and along the faces. Nodes of several pairs have several
+/// lines. Positions and normals are those of the slaves.
 template <int dim>
 std::string rows_text(const Sources<dim>             &sources,
                       const state::ContactState<dim> &state,
@@ -172,18 +273,34 @@ std::string rows_text(const Sources<dim>             &sources,
   std::string       text     = "pair,";
   for (const char axis : axes)
     text += std::string(1, axis) + ',';
+  for (const char axis : axes)
+    text += std::string("normal_") + axis + ',';
+  text += dim == 2 ? "arc_length," : "";
   text += "force,pressure,gap,area,active,weak";
   for (const std::string name : {"traction", "slip"})
     for (unsigned int c = 0; friction && c < dim; ++c)
       text += "," + name + "_" + axes[c];
   text += friction ? ",friction\n" : "\n";
-  for (unsigned int i = 0; i < state.contact.size(); ++i)
+  const auto                at = places_of<dim>(sources, fields.positions);
+  std::vector<unsigned int> order(state.contact.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](const unsigned int i, const unsigned int j) {
+    const auto key = [&](const unsigned int row) {
+      const auto &place = sources.places[row];
+      return std::tuple(place.named, at.piece[place.slave], at.place[place.slave]);
+    };
+    return key(i) < key(j);
+  });
+  for (const unsigned int i : order)
     {
       const auto &row   = sources.places[i];
       const auto &point = state.contact[i];
       text += std::to_string(row.named);
       for (unsigned int c = 0; c < dim; ++c)
         text += ',' + exact(fields.positions[row.slave][c]);
+      for (unsigned int c = 0; c < dim; ++c)
+        text += ',' + exact(at.normals[row.slave][c]);
+      text += dim == 2 ? ',' + exact(at.arc_length[row.slave]) : "";
       for (const double x : {point.force, point.pressure, point.gap, point.area})
         text += ',' + exact(x);
       text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1" : ",0");
@@ -208,15 +325,16 @@ std::string ContactOutput<dim>::write(const Sources                  &of,
                                   placed.turned(of.surface.gather(state.displacement))};
   const std::string        stem = "contact-" + padded(series.size(), 4);
   // Extend the series on all ranks, because the next stem depends on its size.
-  series.emplace_back(time, stem + ".vtu");
-  const MPI_Comm comm = of.mesh.communicator();
+  series.emplace_back(time, stem + ".vtm");
+  const MPI_Comm        comm = of.mesh.communicator();
+  const FaceBlocks<dim> faces(of, state, fields);
+  write_state(comm, directory, stem, faces.blocks(body_names, compression), faces.declarations(),
+              1);
   // Rank 0 writes. If it fails, all ranks fail, because otherwise all other ranks would wait for
   // rank 0 in the next reduction.
   throw_collectively(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    write_text_file(directory + "/" + stem + ".vtu",
-                    faces_text<dim>(of, state, fields, compression));
     write_text_file(directory + "/" + stem + ".csv", rows_text<dim>(of, state, fields));
     write_text_file(directory + "/contact.pvd", pvd(series));
   });

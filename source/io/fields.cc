@@ -1,8 +1,8 @@
-#include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/elasticity/stress.h>
 #include <snug/io/fields.h>
 #include <snug/io/nodal_stress.h>
+#include <snug/io/state_files.h>
 #include <snug/io/text_file.h>
 #include <snug/io/vtu_grid.h>
 #include <snug/mesh/shared_nodes.h>
@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <memory>
+#include <unordered_map>
 
 namespace snug::io {
 namespace {
@@ -72,40 +73,96 @@ std::vector<Field> written(const std::vector<Field>      &fields,
   return result;
 }
 
-/// Return the grid of the cells of this rank, which share points. A node has one point in each
-/// region that meets there.
+/// The fields and positions of a state, from which grids of bodies and boundaries are made.
 template <int dim>
-VtuGrid<dim, dim> grid_of(const mesh::BodyMesh<dim>                 &mesh,
-                          const typename mesh::BodyMesh<dim>::Field &positions,
-                          const std::vector<PointField>             &point_fields,
-                          const std::vector<CellField>              &cell_fields)
+struct DrawnState
 {
-  VtuGrid<dim, dim>         grid(quantities(point_fields), quantities(cell_fields));
-  const unsigned int        n_regions = n_stress_regions(mesh), none = -1;
-  std::vector<unsigned int> number(std::size_t(mesh.n_local_nodes()) * n_regions, none);
-  for (unsigned int k = 0; k < mesh.cells().size(); ++k)
+  const mesh::BodyMesh<dim>          &mesh;
+  typename mesh::BodyMesh<dim>::Field positions;
+  std::vector<PointField>             point_fields;
+  std::vector<CellField>              cell_fields;
+};
+
+/// This class makes the grid of one block. Cells share points. A node has one point in each region
+/// that meets there.
+template <int d, int dim>
+class BlockGrid
+{
+public:
+  explicit BlockGrid(const DrawnState<dim> &state)
+    : state(state)
+    , n_regions(n_stress_regions(state.mesh))
+    , grid(quantities(state.point_fields), quantities(state.cell_fields))
+  {}
+
+  /// Add the nodes of a cell, or of a boundary face of the cell. Both show the values of the cell.
+  void add(const std::vector<unsigned int> &nodes, const unsigned int cell)
+  {
+    const unsigned int        region = state.mesh.cells()[cell].region;
+    std::vector<unsigned int> points;
+    std::vector<double>       values;
+    for (const unsigned int node : nodes)
+      {
+        const auto [place, is_new] = number.try_emplace(std::size_t(node) * n_regions + region, 0);
+        if (is_new)
+          {
+            values.clear();
+            for (const auto &field : state.point_fields)
+              field.append(node, region, values);
+            place->second = grid.add_point(state.positions[node], values);
+          }
+        points.push_back(place->second);
+      }
+    values.clear();
+    for (const auto &field : state.cell_fields)
+      values.push_back(field.value(cell));
+    grid.add_cell(points, values);
+  }
+
+  std::string declarations() const { return grid.declarations(); }
+
+  /// Return the piece of the text of a VTU file, which is empty if there is no cell.
+  std::string piece(const unsigned int compression) const
+  {
+    return grid.is_empty() ? std::string() : grid.piece(compression);
+  }
+
+private:
+  const DrawnState<dim>                        &state;
+  unsigned int                                  n_regions;
+  VtuGrid<d, dim>                               grid;
+  std::unordered_map<std::size_t, unsigned int> number; ///< of the point of (node, region)
+};
+
+/// Return the blocks of the bodies, then of their boundaries.
+template <int dim>
+std::vector<Block> blocks_of(const DrawnState<dim>          &state,
+                             const std::vector<std::string> &body_names,
+                             const unsigned int              compression)
+{
+  const auto                                       &mesh = state.mesh;
+  std::vector<BlockGrid<dim, dim>>                  bodies;
+  std::vector<std::vector<BlockGrid<dim - 1, dim>>> boundaries;
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
     {
-      const auto               &cell = mesh.cells()[k];
-      std::vector<unsigned int> points;
-      std::vector<double>       values;
-      for (const unsigned int node : cell.nodes)
-        {
-          unsigned int &point = number[std::size_t(node) * n_regions + cell.region];
-          if (point == none)
-            {
-              values.clear();
-              for (const auto &field : point_fields)
-                field.append(node, cell.region, values);
-              point = grid.add_point(positions[node], values);
-            }
-          points.push_back(point);
-        }
-      values.clear();
-      for (const auto &field : cell_fields)
-        values.push_back(field.value(k));
-      grid.add_cell(points, values);
+      bodies.emplace_back(state);
+      boundaries.emplace_back(mesh.geometry(body).boundary_names().size(),
+                              BlockGrid<dim - 1, dim>(state));
     }
-  return grid;
+  for (unsigned int k = 0; k < mesh.cells().size(); ++k)
+    bodies[mesh.cells()[k].body].add(mesh.cells()[k].nodes, k);
+  for (const auto &face : mesh.boundary_faces())
+    boundaries[face.body][face.boundary].add(face.nodes, face.cell);
+
+  std::vector<Block> result;
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+    result.push_back({"bodies", body_names[body], bodies[body].piece(compression)});
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+    for (unsigned int b = 0; b < boundaries[body].size(); ++b)
+      result.push_back({"boundaries",
+                        body_names[body] + '.' + mesh.geometry(body).boundary_names()[b],
+                        boundaries[body][b].piece(compression)});
+  return result;
 }
 
 /// Return global ids, so that subdomains of different ranks get different colors.
@@ -133,20 +190,22 @@ PointField vector_field(const std::string &name, const Value &value)
 template <int dim>
 using Motions = std::vector<geometry::RigidMotion<dim>>;
 
-/// Return the smoothed stress, also of sections with 3 x 3 components, and the von Mises stress
-/// of the smoothed stress, not the mean of the von Mises stresses of the cells. If neither is
-/// written, nothing is computed.
+/// Return the smoothed stress, also of sections with the components across them, and the von Mises
+/// stress and the principal stresses of the smoothed stress, not the means over the cells. If none
+/// of them is written, nothing is computed.
 template <int dim>
 std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &of,
                                       const Motions<dim>                       &motions,
                                       const state::ContactState<dim>           &state,
                                       const scene::OutputParameters            &parameters)
 {
-  if (!parameters.has("stress") && !parameters.has("von_mises"))
+  if (!parameters.has("stress") && !parameters.has("von_mises") &&
+      !parameters.has("principal_stress"))
     return {};
   using Stresses               = std::vector<dealii::SymmetricTensor<2, 3>>;
   const unsigned int n_regions = n_stress_regions(of.mesh);
-  auto in_bodies = nodal_stress(of.mesh, of.bodies, state.positions, state.displacement);
+  auto               in_bodies =
+    nodal_stress(of.mesh, of.bodies, state.positions, state.displacement, of.load_case.bodies);
   for (unsigned int i = 0; i < in_bodies.size(); ++i)
     if (const auto &motion = motions[of.mesh.body_of_node(i / n_regions)]; !motion.is_identity())
       {
@@ -161,26 +220,20 @@ std::vector<PointField> stress_fields(const typename FieldOutput<dim>::Sources &
   const auto stress   = [stresses, n_regions](const unsigned int node, const unsigned int region) {
     return (*stresses)[std::size_t(node) * n_regions + region];
   };
-  return {{{"stress", 9},
+  return {{{"stress", 6},
            [stress](const unsigned int node, const unsigned int region, std::vector<double> &to) {
-             for (unsigned int i = 0; i < 9; ++i)
-               to.push_back(stress(node, region)[i / 3][i % 3]);
+             const auto s = stress(node, region);
+             to.insert(to.end(), {s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[0][2]});
            }},
           {{"von_mises", 1},
            [stress](const unsigned int node, const unsigned int region, std::vector<double> &to) {
              to.push_back(elasticity::von_mises(stress(node, region)));
+           }},
+          {{"principal_stress", 3, {"maximum", "middle", "minimum"}},
+           [stress](const unsigned int node, const unsigned int region, std::vector<double> &to) {
+             const auto values = eigenvalues(stress(node, region)); // in descending order
+             to.insert(to.end(), values.begin(), values.end());
            }}};
-}
-
-/// Return the texts of @p n ranks on the first of them, nothing on the other ranks. Collective.
-std::vector<std::string> of_ranks(MPI_Comm all, const unsigned int n, const std::string &text)
-{
-  const int rank = narrow<int>(dealii::Utilities::MPI::this_mpi_process(all));
-  MPI_Comm  some;
-  MPI_Comm_split(all, rank / narrow<int>(n), rank, &some);
-  auto texts = dealii::Utilities::MPI::gather(some, text);
-  MPI_Comm_free(&some);
-  return texts;
 }
 } // namespace
 
@@ -196,7 +249,7 @@ std::string FieldOutput<dim>::write(const Sources                             &o
   const auto   gradient = summed(mesh, parameters.has("shape_gradient") ? shape_gradient : nullptr);
   Motions<dim> motions;
   for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
-    motions.push_back(of.position.of_body(body));
+    motions.push_back(of.load_case.position.of_body(body));
   const auto motion = [&](const unsigned int node) -> const geometry::RigidMotion<dim> & {
     return motions[mesh.body_of_node(node)];
   };
@@ -225,26 +278,16 @@ std::string FieldOutput<dim>::write(const Sources                             &o
   auto positions = state.positions;
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     positions[node] = motion(node).point(positions[node]);
-  const auto grid =
-    grid_of(mesh, positions, written(at_points, parameters), written(of_cells, parameters));
-
-  const MPI_Comm           comm     = mesh.communicator();
-  const auto               rank     = dealii::Utilities::MPI::this_mpi_process(comm);
-  const std::string        stem     = "solution-" + padded(series.size(), 4);
-  const unsigned int       per_file = parameters.ranks_per_file;
-  std::vector<std::string> files;
-  for (unsigned int r = 0; r < dealii::Utilities::MPI::n_mpi_processes(comm); r += per_file)
-    // The .pvtu file names the files of all ranks.
-    files.push_back(stem + "." + padded(r / per_file, 4) + ".vtu");
-  series.emplace_back(time, stem + ".pvtu");
-  const auto pieces = of_ranks(comm, per_file, grid.piece(parameters.compression));
+  const DrawnState<dim> drawn{mesh, positions, written(at_points, parameters),
+                              written(of_cells, parameters)};
+  const std::string     stem = "solution-" + padded(series.size(), 4);
+  series.emplace_back(time, stem + ".vtm");
+  const MPI_Comm comm = mesh.communicator();
+  write_state(comm, directory, stem, blocks_of(drawn, body_names, parameters.compression),
+              BlockGrid<dim, dim>(drawn).declarations(), parameters.ranks_per_file);
   throw_collectively(comm, [&] {
-    if (!pieces.empty())
-      write_text_file(directory + "/" + files[rank / per_file], vtu(pieces));
-    if (rank != 0)
-      return;
-    write_text_file(directory + "/" + stem + ".pvtu", grid.pvtu(files));
-    write_text_file(directory + "/solution.pvd", pvd(series));
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      write_text_file(directory + "/solution.pvd", pvd(series));
   });
   return series.back().second;
 }

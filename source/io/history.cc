@@ -9,7 +9,7 @@ namespace snug::io {
 /// Return the header, whose columns have the widths of log_line().
 std::string log_header()
 {
-  return "iter           objective   gradient   violation contacts F-mults"
+  return "iter evals           objective   gradient   violation contacts F-mults"
          "   quality    seconds";
 }
 
@@ -17,17 +17,18 @@ std::string log_line(const HistoryLine &line)
 {
   // The widths are those of log_header(). Every column fits, so nothing is cut off.
   char text[160];
-  std::snprintf(text, sizeof(text), "%4u %19.12e %10.3e %11.3e %7u %8lu %9.3f %10.2f",
-                line.iteration, line.objective, line.projected_gradient, line.constraint_violation,
-                line.active_contacts, line.f_mults, line.scaled_jacobian, line.seconds);
-  return text;
+  std::snprintf(text, sizeof(text), "%4u %5u %19.12e %10.3e %11.3e %7u %8lu %9.3f %10.2f",
+                line.iteration, line.evaluations, line.objective, line.projected_gradient,
+                line.constraint_violation, line.active_contacts, line.f_mults, line.scaled_jacobian,
+                line.seconds);
+  return text + (line.violated.empty() ? "" : "  " + line.violated);
 }
 
 History::History(const std::string              &path,
                  unsigned int                    n_variables,
                  const std::vector<std::string> &columns)
   : path(path)
-  , text("iteration,objective,constraint_violation,projected_gradient,"
+  , text("iteration,evaluations,objective,constraint_violation,projected_gradient,"
          "active_contacts,f_mults,scaled_jacobian,seconds")
   , n_variables(n_variables)
   , n_values(columns.size())
@@ -43,10 +44,11 @@ void History::add(const HistoryLine &line)
 {
   AssertDimension(line.design.size(), n_variables);
   AssertDimension(line.values.size(), n_values);
-  text += std::to_string(line.iteration) + ',' + exact(line.objective) + ',' +
-          exact(line.constraint_violation) + ',' + exact(line.projected_gradient) + ',' +
-          std::to_string(line.active_contacts) + ',' + std::to_string(line.f_mults) + ',' +
-          exact(line.scaled_jacobian) + ',' + exact(line.seconds);
+  text += std::to_string(line.iteration) + ',' + std::to_string(line.evaluations) + ',' +
+          exact(line.objective) + ',' + exact(line.constraint_violation) + ',' +
+          exact(line.projected_gradient) + ',' + std::to_string(line.active_contacts) + ',' +
+          std::to_string(line.f_mults) + ',' + exact(line.scaled_jacobian) + ',' +
+          exact(line.seconds);
   for (const auto *numbers : {&line.design, &line.values})
     for (const double value : *numbers)
       text += ',' + exact(value);

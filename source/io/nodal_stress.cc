@@ -1,6 +1,7 @@
 #include <snug/elasticity/element.h>
 #include <snug/io/nodal_stress.h>
 #include <snug/mesh/shared_nodes.h>
+#include <snug/state/thermal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,7 @@ struct Solved
 
   const mesh::BodyMesh<dim>                &mesh;
   const std::vector<state::BodyModel<dim>> &bodies;
+  const std::vector<state::BodyLoads<dim>> &loads;
   const Field                              &positions, &displacement;
   const unsigned int                        n_regions = n_stress_regions(mesh);
 
@@ -56,6 +58,15 @@ struct Solved
     for (const unsigned int node : cell.nodes)
       values.push_back(field[node]);
     return values;
+  }
+
+  elasticity::ThermalStrain<dim>
+  thermal_strain(const typename mesh::BodyMesh<dim>::Cell &cell) const
+  {
+    if (loads.empty())
+      return {};
+    return state::thermal_strain<dim>(loads[cell.body], bodies[cell.body].material(cell),
+                                      at_nodes(cell, mesh.reference_positions()));
   }
 
   std::size_t index(const typename mesh::BodyMesh<dim>::Cell &cell, unsigned int node) const
@@ -78,10 +89,11 @@ std::vector<Stress> sampled_stress(const Solved<dim> &solved, const StressSampli
   std::vector<Stress> result;
   for (const auto &cell : mesh.cells())
     {
-      const auto of_cell =
-        elements[cell.body].stresses(solved.at_nodes(cell, solved.positions),
-                                     solved.bodies[cell.body].material(cell),
-                                     solved.at_nodes(cell, solved.displacement), shapes);
+      const auto &material = solved.bodies[cell.body].material(cell);
+      const auto  of_cell =
+        elements[cell.body].stresses(solved.at_nodes(cell, solved.positions), material,
+                                     solved.at_nodes(cell, solved.displacement), shapes,
+                                     solved.thermal_strain(cell));
       result.insert(result.end(), of_cell.begin(), of_cell.end());
     }
   return result;
@@ -291,10 +303,11 @@ std::vector<dealii::SymmetricTensor<2, 3>>
 nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
              const std::vector<state::BodyModel<dim>>  &bodies,
              const typename mesh::BodyMesh<dim>::Field &positions,
-             const typename mesh::BodyMesh<dim>::Field &displacement)
+             const typename mesh::BodyMesh<dim>::Field &displacement,
+             const std::vector<state::BodyLoads<dim>>  &loads)
 {
   AssertDimension(bodies.size(), mesh.n_bodies());
-  const Solved<dim>  solved{mesh, bodies, positions, displacement};
+  const Solved<dim>  solved{mesh, bodies, loads, positions, displacement};
   auto               sums      = stress_sums(solved);
   const unsigned int n_regions = solved.n_regions;
   // Sum values and weights together, so that the mean is over the cells of all ranks.
@@ -332,7 +345,8 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
   template unsigned int                               n_stress_regions(const mesh::BodyMesh<dim> &); \
   template std::vector<dealii::SymmetricTensor<2, 3>> nodal_stress(                                  \
     const mesh::BodyMesh<dim> &, const std::vector<state::BodyModel<dim>> &,                         \
-    const mesh::BodyMesh<dim>::Field &, const mesh::BodyMesh<dim>::Field &);
+    const mesh::BodyMesh<dim>::Field &, const mesh::BodyMesh<dim>::Field &,                          \
+    const std::vector<state::BodyLoads<dim>> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

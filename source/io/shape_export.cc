@@ -82,6 +82,45 @@ void write_control_points(const std::string                         &path,
   write_text_file(path, text);
 }
 
-template void write_control_points(const std::string &, const std::vector<shape::MovedPoint<2>> &);
-template void write_control_points(const std::string &, const std::vector<shape::MovedPoint<3>> &);
+template <int dim>
+void write_gradients(const std::string                         &path,
+                     const std::vector<shape::MovedPoint<dim>> &points,
+                     const std::vector<std::string>            &names,
+                     const std::vector<std::vector<double>>    &gradients)
+{
+  std::string text =
+    dim == 3 ? "variable,shape,control_points,x,y,z" : "variable,shape,control_points,x,y";
+  for (const auto &name : names)
+    text += ",d(" + name + ")";
+  text += '\n';
+  for (unsigned int i = 0; i < gradients.front().size(); ++i)
+    {
+      std::string                   indices;
+      const shape::MovedPoint<dim> *first = nullptr;
+      for (const auto &point : points)
+        for (const auto &moved : point.variables)
+          if (moved.first == i)
+            {
+              first = first == nullptr ? &point : first;
+              indices += (indices.empty() ? "" : " ") + std::to_string(point.index);
+            }
+      text += std::to_string(i) + ',' + (first != nullptr ? first->shape : "") + ',' + indices;
+      for (unsigned int c = 0; c < dim; ++c)
+        text += ',' + (first != nullptr ? exact(first->on_body[c]) : "");
+      for (const auto &gradient : gradients)
+        text += ',' + exact(gradient[i]);
+      text += '\n';
+    }
+  write_text_file(path, text);
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                     \
+  template void write_control_points(const std::string &,                                         \
+                                     const std::vector<shape::MovedPoint<dim>> &);                \
+  template void write_gradients(const std::string &, const std::vector<shape::MovedPoint<dim>> &, \
+                                const std::vector<std::string> &,                                 \
+                                const std::vector<std::vector<double>> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::io

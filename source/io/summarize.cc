@@ -1,5 +1,6 @@
 #include <snug/base/narrow.h>
 #include <snug/io/summary.h>
+#include <snug/scene/scene.h>
 
 #include <sys/resource.h>
 
@@ -7,6 +8,24 @@
 #include <vector>
 
 namespace snug::io {
+std::vector<std::pair<std::string, std::string>> summarize_units(const scene::Scene &scene)
+{
+  const Units units(scene.units);
+  if (!units.are_named())
+    return {};
+  std::vector<std::pair<std::string, std::string>> result = {{"length", units.name("length")},
+                                                             {"force", units.name("force")},
+                                                             {"stress",
+                                                              units.name("force/length^2")}};
+  const auto                                       add    = [&](const std::string &response) {
+    result.emplace_back(response, trim(scene::unit_after_number(scene, response)));
+  };
+  add(scene.optimization.objective);
+  for (const auto &response : scene.responses)
+    add(response.name);
+  return result;
+}
+
 /// Return the summary of the mesh. The caller adds the rows of B, which are not known here.
 template <int dim>
 Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing)

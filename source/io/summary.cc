@@ -227,6 +227,13 @@ std::string Summary::json() const
     text["initial_state"] = *initial_state;
   for (const auto &load_case : load_cases)
     text["load_cases"].push_back(summary_part(load_case));
+  for (const auto &[quantity, unit] : units)
+    text["units"][quantity] = unit;
+  for (const auto &face : profile)
+    text["profile"].push_back({{"face", face.name},
+                               {"spans", face.spans},
+                               {"deviation", face.deviation},
+                               {"asked", face.asked}});
   if (advice)
     {
       text["advice"] = Json::array();

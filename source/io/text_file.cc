@@ -79,17 +79,27 @@ void remove_files(const std::string &directory, const std::regex &names)
 void remove_results(const RunContext &context, const std::vector<std::string> &directories)
 {
   static const std::regex ours(
-    "(solution|contact)\\.pvd|solution-\\d{4,}(\\.\\d{4,}\\.vtu|\\.pvtu)|"
-    "contact-\\d{4,}\\.(vtu|csv)|history\\.csv|summary\\.json|"
-    "surface\\.stl|bodies\\.(msh|inp)|(profile|control-points)\\.csv|journal\\.txt|"
-    "warm-start\\.\\d+\\.[01]");
+    "(solution|contact)(\\.pvd|-\\d{4,}\\.(vtm|pvtu))|"
+    "contact-\\d{4,}\\.csv|(history|gradients)\\.csv|summary\\.json|"
+    "surface\\.stl|profile\\.step|bodies\\.(msh|inp)|(profile|control-points)\\.csv|"
+    "journal\\.txt|warm-start\\.\\d+\\.[01]");
   static const std::regex of_qp("(K|B|R|f|g|bounded|u|lambda)\\.(petsc|mtx)");
+  static const std::regex states("(solution|contact)-\\d{4,}"),
+    blocks("\\d{2,}-.*\\.\\d{4,}\\.vtu");
   throw_collectively(context.communicator(), [&] {
     if (context.rank() != 0)
       return;
     for (const auto &directory : directories)
       {
         remove_files(directory, ours);
+        std::error_code ignored;
+        for (const auto &entry : std::filesystem::directory_iterator(directory, ignored))
+          if (entry.is_directory(ignored) &&
+              std::regex_match(entry.path().filename().string(), states))
+            {
+              remove_files(entry.path().string(), blocks);
+              std::filesystem::remove(entry.path(), ignored); // if it is empty
+            }
         remove_files(directory + "/qp", of_qp);
       }
   });

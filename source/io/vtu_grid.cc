@@ -56,16 +56,28 @@ std::string encoded(const std::vector<T> &values, const unsigned int compression
          dealii::Utilities::encode_base64(blocks);
 }
 
-/// Return the words common to a piece and the list of files.
-std::string
-declared(const std::string &type, const std::string &name, const unsigned int components)
+/// Return the words common to a piece and the list of files. @param[in] components Names.
+std::string declared(const std::string              &type,
+                     const std::string              &name,
+                     const std::vector<std::string> &components)
 {
   std::string text = "DataArray type=\"" + type + "\"";
   if (!name.empty())
     text += " Name=\"" + name + "\"";
-  if (components > 1)
-    text += " NumberOfComponents=\"" + std::to_string(components) + "\"";
+  if (components.size() > 1)
+    text += " NumberOfComponents=\"" + std::to_string(components.size()) + "\"";
+  for (std::size_t c = 0; c < components.size(); ++c)
+    text += " ComponentName" + std::to_string(c) + "=\"" + components[c] + "\"";
   return text;
+}
+
+/// Return the names of the components of scalars, vectors and symmetric tensors as VTK orders them.
+/// VTK knows vectors of three components only.
+std::vector<std::string> component_names(const unsigned int components)
+{
+  return components == 1   ? std::vector<std::string>()
+         : components == 6 ? std::vector<std::string>{"XX", "YY", "ZZ", "XY", "YZ", "XZ"}
+                           : std::vector<std::string>{"X", "Y", "Z"};
 }
 
 std::string opened(const std::string &type)
@@ -102,14 +114,13 @@ VtuGrid<d, dim>::VtuGrid(const std::vector<Quantity> &of_points,
   : at_points(arrays(of_points)), of_cells(arrays(of_the_cells))
 {}
 
-/// Return the arrays. VTK knows vectors of three components only.
 template <int d, int dim>
 std::vector<typename VtuGrid<d, dim>::Array>
 VtuGrid<d, dim>::arrays(const std::vector<Quantity> &quantities)
 {
   std::vector<Array> result;
-  for (const auto &[name, components] : quantities)
-    result.push_back({name, components, components == 2 ? 3 : components, {}});
+  for (const auto &[name, components, names] : quantities)
+    result.push_back({name, components, names.empty() ? component_names(components) : names, {}});
   return result;
 }
 
@@ -121,7 +132,7 @@ void VtuGrid<d, dim>::append(const std::vector<double> &values, std::vector<Arra
     {
       for (unsigned int i = 0; i < array.components; ++i)
         array.values.push_back(static_cast<float>(values[c++]));
-      array.values.insert(array.values.end(), array.written - array.components, 0.f);
+      array.values.insert(array.values.end(), array.n_written() - array.components, 0.f);
     }
   AssertDimension(c, values.size());
 }
@@ -170,16 +181,16 @@ std::string VtuGrid<d, dim>::piece(const unsigned int compression) const
   const auto write_all = [&](const std::string &section, const std::vector<Array> &arrays) {
     out << '<' << section << ">\n";
     for (const auto &array : arrays)
-      write(declared("Float32", array.name, array.written), array.values);
+      write(declared("Float32", array.name, array.names), array.values);
     out << "</" << section << ">\n";
   };
   out << "<Piece NumberOfPoints=\"" << places.values.size() / 3 << "\" NumberOfCells=\"" << n_cells
       << "\">\n";
   write_all("Points", {places});
   out << "<Cells>\n";
-  write(declared("Int32", "connectivity", 1), corners);
-  write(declared("Int32", "offsets", 1), ends);
-  write(declared("UInt8", "types", 1), Bytes(n_cells, cell_type<d>()));
+  write(declared("Int32", "connectivity", {}), corners);
+  write(declared("Int32", "offsets", {}), ends);
+  write(declared("UInt8", "types", {}), Bytes(n_cells, cell_type<d>()));
   out << "</Cells>\n";
   write_all("PointData", at_points);
   write_all("CellData", of_cells);
@@ -187,25 +198,30 @@ std::string VtuGrid<d, dim>::piece(const unsigned int compression) const
   return out.str();
 }
 
-/// Return the PVTU text. It names the quantities but has no points, so any rank can write it.
+/// Return the declarations. They have no values, so any rank can write them.
 template <int d, int dim>
-std::string VtuGrid<d, dim>::pvtu(const std::vector<std::string> &files) const
+std::string VtuGrid<d, dim>::declarations() const
 {
   std::ostringstream out;
   const auto         list = [&](const std::string &section, const std::vector<Array> &arrays) {
     out << "<P" << section << ">\n";
     for (const auto &array : arrays)
-      out << "<P" << declared("Float32", array.name, array.written) << "/>\n";
+      out << "<P" << declared("Float32", array.name, array.names) << "/>\n";
     out << "</P" << section << ">\n";
   };
-  out << opened("PUnstructuredGrid") << "<PUnstructuredGrid GhostLevel=\"0\">\n";
   list("Points", {places});
   list("PointData", at_points);
   list("CellData", of_cells);
-  for (const auto &file : files)
-    out << "<Piece Source=\"" << file << "\"/>\n";
-  out << "</PUnstructuredGrid>\n</VTKFile>\n";
   return out.str();
+}
+
+std::string pvtu(const std::string &declarations, const std::vector<std::string> &files)
+{
+  std::string text =
+    opened("PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n" + declarations;
+  for (const auto &file : files)
+    text += "<Piece Source=\"" + file + "\"/>\n";
+  return text + "</PUnstructuredGrid>\n</VTKFile>\n";
 }
 
 std::string vtu(const std::vector<std::string> &pieces)

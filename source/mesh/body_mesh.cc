@@ -4,6 +4,7 @@
 #include <snug/mesh/distribute.h>
 #include <snug/mesh/face_nodes.h>
 #include <snug/mesh/lagrange.h>
+#include <snug/mesh/quadratic_elements.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -34,13 +35,15 @@ struct BodyMesh<dim>::Source
     , order(dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree))
   {
     const auto &parameters = tearing ? *tearing : TearingParameters();
+    if (degree == 2)
+      elements = QuadraticElements<dim>(forest);
     if (!is_distributed)
       ids.emplace(*forest.triangulation());
     else if (forest.triangulation())
-      parts =
-        distribute(forest.coarse(), parameters, by_size, *forest.triangulation(), distributed);
+      parts = distribute(forest.coarse(), elements, parameters, by_size, *forest.triangulation(),
+                         distributed);
     else
-      parts = distribute(forest.coarse(), parameters, by_size, distributed);
+      parts = distribute(forest.coarse(), elements, parameters, by_size, distributed);
     if (is_distributed)
       nodes.reinit(distributed);
     else
@@ -48,6 +51,7 @@ struct BodyMesh<dim>::Source
     nodes.distribute_dofs(fe);
   }
 
+  QuadraticElements<dim> elements;
   // Members are destroyed in reverse order: the nodes before the triangulation and the element.
   dealii::FE_Q<dim>                                      fe;
   dealii::parallel::fullydistributed::Triangulation<dim> distributed;
@@ -128,6 +132,8 @@ void BodyMesh<dim>::collect_hanging(const Source &source)
 {
   auto constraints = deal_ii_compat::constraints(source.nodes.locally_owned_dofs(), relevant);
   dealii::DoFTools::make_hanging_node_constraints(source.nodes, constraints);
+  source.elements.constrain(
+    source.nodes, [&](const auto &cell) { return source.id(cell); }, source.order, constraints);
   constraints.close();
   // is_hanging() requires that the value of other nodes exceeds all indices.
   hanging_of_node.assign(relevant.n_elements(), static_cast<unsigned int>(-1));

@@ -86,6 +86,7 @@ std::vector<CellShape<dim>> shapes_of(const CoarseMesh<dim> &coarse,
 /// Return the set of the owned cells of a body. Collective.
 template <int dim>
 CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
+                      const QuadraticElements<dim>      &elements,
                       unsigned int                       body,
                       const std::vector<CellShape<dim>> &shapes,
                       const PlacedIds<dim>              &ids,
@@ -99,8 +100,9 @@ CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
   for (const auto &cell : cells)
     {
       const dealii::CellId id = ids.of(cell->id());
-      set.centres.push_back(
-        geometry.logical(coarse.places.point(id, geometry::unit_centre<dim>())));
+      set.add(elements.place(id), [&](const dealii::Point<dim> &unit) {
+        return geometry.logical(coarse.places.point(id, unit));
+      });
       set.numbers.push_back(cell->global_active_cell_index());
       set.keys.push_back(key<dim>(id));
       for (const unsigned int f : cell->face_indices())
@@ -168,10 +170,11 @@ received_parts(const dealii::parallel::fullydistributed::Triangulation<dim> &res
 } // namespace
 
 template <int dim>
-std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
-                                     const TearingParameters &parameters,
-                                     const CellsPerSubdomain &by_size,
-                                     const Refined<dim>      &refined,
+std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
+                                     const QuadraticElements<dim> &elements,
+                                     const TearingParameters      &parameters,
+                                     const CellsPerSubdomain      &by_size,
+                                     const Refined<dim>           &refined,
                                      dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
   const MPI_Comm            communicator = deal_ii_compat::communicator(refined);
@@ -183,7 +186,7 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
     return shapes_of(coarse, body, ids, cells[body]);
   });
   for (unsigned int body = 0; body < n_bodies; ++body)
-    sets.push_back(cell_set(coarse, body, shapes[body], ids, cells[body], communicator));
+    sets.push_back(cell_set(coarse, elements, body, shapes[body], ids, cells[body], communicator));
   const Parts parts = decide_parts(sets, parameters, by_size);
   const auto  ranks =
     ranks_of_parts(parts.cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
@@ -209,10 +212,10 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
   return received_parts(result, sent);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                      \
-  template std::vector<unsigned int> distribute(                                   \
-    const CoarseMesh<dim> &, const TearingParameters &, const CellsPerSubdomain &, \
-    const dealii::parallel::distributed::Triangulation<dim> &,                     \
+#define SNUG_INSTANTIATE(dim)                                                             \
+  template std::vector<unsigned int> distribute(                                          \
+    const CoarseMesh<dim> &, const QuadraticElements<dim> &, const TearingParameters &,   \
+    const CellsPerSubdomain &, const dealii::parallel::distributed::Triangulation<dim> &, \
     dealii::parallel::fullydistributed::Triangulation<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

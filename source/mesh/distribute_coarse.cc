@@ -107,6 +107,7 @@ shapes_of(const CoarseMesh<dim> &coarse, const unsigned int body, const MPI_Comm
 /// Return the set of the cells of a body in the run of this rank. Collective.
 template <int dim>
 CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
+                      const QuadraticElements<dim>      &elements,
                       const unsigned int                 body,
                       const Neighbourhood<dim>          &neighbourhood,
                       const std::vector<CellShape<dim>> &shapes,
@@ -123,7 +124,9 @@ CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
   set.layered      = geometry.has_grid();
   for (unsigned int cell = run.begin; cell < run.end; ++cell)
     {
-      set.centres.push_back(geometry.logical({cell - begin, geometry::unit_centre<dim>()}));
+      set.add(elements.place(dealii::CellId(cell, {})), [&](const dealii::Point<dim> &unit) {
+        return geometry.logical({cell - begin, unit});
+      });
       set.numbers.push_back(cell);
       set.keys.push_back({{cell, 0}});
     }
@@ -143,11 +146,12 @@ struct Places
 };
 
 template <int dim>
-Places decide_places(const CoarseMesh<dim>    &coarse,
-                     const Neighbourhood<dim> &neighbourhood,
-                     const TearingParameters  &parameters,
-                     const CellsPerSubdomain  &by_size,
-                     const MPI_Comm            communicator)
+Places decide_places(const CoarseMesh<dim>        &coarse,
+                     const QuadraticElements<dim> &elements,
+                     const Neighbourhood<dim>     &neighbourhood,
+                     const TearingParameters      &parameters,
+                     const CellsPerSubdomain      &by_size,
+                     const MPI_Comm                communicator)
 {
   std::vector<CellSet<dim>> sets;
   const auto                shapes =
@@ -155,7 +159,7 @@ Places decide_places(const CoarseMesh<dim>    &coarse,
       return shapes_of(coarse, body, communicator);
     });
   for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
-    sets.push_back(cell_set(coarse, body, neighbourhood, shapes[body], communicator));
+    sets.push_back(cell_set(coarse, elements, body, neighbourhood, shapes[body], communicator));
   const Parts parts = decide_parts(sets, parameters, by_size);
   const auto  ranks =
     ranks_of_parts(parts.cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
@@ -207,14 +211,16 @@ dealii::TriangulationDescription::CellData<dim> cell_info(const unsigned int cel
 } // namespace
 
 template <int dim>
-std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
-                                     const TearingParameters &parameters,
-                                     const CellsPerSubdomain &by_size,
+std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
+                                     const QuadraticElements<dim> &elements,
+                                     const TearingParameters      &parameters,
+                                     const CellsPerSubdomain      &by_size,
                                      dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
   const MPI_Comm           communicator = deal_ii_compat::communicator(result);
   const Neighbourhood<dim> neighbourhood(coarse);
-  const Places places = decide_places(coarse, neighbourhood, parameters, by_size, communicator);
+  const Places             places =
+    decide_places(coarse, elements, neighbourhood, parameters, by_size, communicator);
   dealii::TriangulationDescription::Description<dim, dim> description;
   description.comm      = communicator;
   description.settings  = dealii::TriangulationDescription::Settings::default_setting;
@@ -248,10 +254,10 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>   &coarse,
   return parts;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                      \
-  template std::vector<unsigned int> distribute(                                   \
-    const CoarseMesh<dim> &, const TearingParameters &, const CellsPerSubdomain &, \
-    dealii::parallel::fullydistributed::Triangulation<dim> &);
+#define SNUG_INSTANTIATE(dim)                                                           \
+  template std::vector<unsigned int> distribute(                                        \
+    const CoarseMesh<dim> &, const QuadraticElements<dim> &, const TearingParameters &, \
+    const CellsPerSubdomain &, dealii::parallel::fullydistributed::Triangulation<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -8,11 +8,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 
 namespace snug::mesh {
+using geometry::no_element;
+
 namespace {
 /// Return the entries of all ranks on rank @p root, rank after rank, and nothing on other ranks.
 template <typename T>
@@ -55,8 +58,47 @@ idx_t weight(const double area, const double mean)
   return narrow<idx_t>(std::lround(std::clamp(usual_weight * area / mean, 1., largest)));
 }
 
+/// A graph whose vertices are whole elements and the cells that belong to none.
+struct ElementGraph
+{
+  FaceAreas                 areas;
+  std::vector<unsigned int> vertex; ///< of each cell
+  /// work of each vertex for METIS; empty if all vertices are cells
+  std::vector<idx_t> work;
+};
+
+/// Contract the cells of each element to one vertex. Vertices are in the order of their first
+/// cells.
+ElementGraph contracted(const FaceAreas &cells, const std::vector<CellPlace> &places)
+{
+  const double                                   unit = 10.; // work of a cell without an element
+  ElementGraph                                   graph;
+  std::unordered_map<unsigned int, unsigned int> of_element;
+  std::vector<double>                            work;
+  for (const auto &[element, of_cell] : places)
+    {
+      const unsigned int next = work.size();
+      graph.vertex.push_back(
+        element == no_element ? next : of_element.emplace(element, next).first->second);
+      work.resize(std::max<std::size_t>(next, graph.vertex.back() + 1), 0.);
+      work[graph.vertex.back()] += of_cell;
+    }
+  std::vector<std::map<unsigned int, double>> sums(work.size());
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    for (const auto &[neighbour, area] : cells[cell])
+      if (graph.vertex[neighbour] != graph.vertex[cell])
+        sums[graph.vertex[cell]][graph.vertex[neighbour]] += area;
+  for (const auto &of_vertex : sums)
+    graph.areas.emplace_back(of_vertex.begin(), of_vertex.end());
+  if (!of_element.empty())
+    for (const double of_vertex : work)
+      graph.work.push_back(std::max(1l, std::lround(unit * of_vertex)));
+  return graph;
+}
+
 /// METIS is deterministic: equal graphs with the same numbering give equal parts.
-std::vector<unsigned int> metis_parts(const FaceAreas &graph, unsigned int n_parts)
+std::vector<unsigned int>
+metis_parts(const FaceAreas &graph, std::vector<idx_t> work, unsigned int n_parts)
 {
   std::vector<unsigned int> part(graph.size(), 0);
   if (n_parts <= 1)
@@ -89,8 +131,9 @@ std::vector<unsigned int> metis_parts(const FaceAreas &graph, unsigned int n_par
   const BlockedSignals during_call;
   // METIS recommends these methods for few and for many parts.
   const auto method = k <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  if (method(&n, &one, start.data(), neighbours.data(), nullptr, nullptr, weights.data(), &k,
-             nullptr, nullptr, options, &cut, parts.data()) != METIS_OK)
+  if (method(&n, &one, start.data(), neighbours.data(), work.empty() ? nullptr : work.data(),
+             nullptr, weights.data(), &k, nullptr, nullptr, options, &cut,
+             parts.data()) != METIS_OK)
     throw std::runtime_error("METIS could not partition the cells");
   part.assign(parts.begin(), parts.end());
   return part;
@@ -109,10 +152,13 @@ std::vector<unsigned int> sorted_order(const std::vector<Key> &keys)
 
 /// Return connected parts without slivers.
 std::vector<unsigned int>
-parts_of_graph(const CellGraph &graph, const FaceAreas &areas, double cells_each)
+parts_of_graph(const CellGraph &graph, const ElementGraph &elements, double cells_each)
 {
-  const unsigned int n_parts = std::max(1l, std::lround(graph.size() / cells_each));
-  auto               part    = metis_parts(areas, n_parts);
+  const unsigned int        n_parts   = std::max(1l, std::lround(graph.size() / cells_each));
+  const auto                of_vertex = metis_parts(elements.areas, elements.work, n_parts);
+  std::vector<unsigned int> part;
+  for (const unsigned int vertex : elements.vertex)
+    part.push_back(of_vertex[vertex]);
   // METIS balances the numbers of cells but may return disconnected parts. A piece of a few cells
   // would be a subdomain with a factorization and a kernel of its own.
   merge_slivers(graph, part, split_into_pieces(graph, part), cells_each);
@@ -128,6 +174,7 @@ public:
   GatheredCells(const CellSet<dim> &set, const unsigned int root)
     : keys(on_rank(root, set.communicator, set.keys))
     , numbers(on_rank(root, set.communicator, set.numbers))
+    , places(on_rank(root, set.communicator, set.places))
     , neighbours(on_rank(root, set.communicator, set.neighbours))
     , areas(on_rank(root, set.communicator, set.areas))
   {}
@@ -138,10 +185,14 @@ public:
     // The gathered order depends on the number of ranks, but the order of the keys does not.
     const auto                order = sorted_order(keys);
     std::vector<unsigned int> cells;
+    std::vector<CellPlace>    sorted_places;
     for (const unsigned int i : order)
-      cells.push_back(numbers[i]);
-    const auto                sorted = parts_of_graph(cell_graph(cells, neighbours),
-                                                      face_areas(cells, neighbours, areas), cells_each);
+      {
+        cells.push_back(numbers[i]);
+        sorted_places.push_back(places[i]);
+      }
+    const auto graph  = contracted(face_areas(cells, neighbours, areas), sorted_places);
+    const auto sorted = parts_of_graph(cell_graph(cells, neighbours), graph, cells_each);
     std::vector<unsigned int> result(order.size());
     for (unsigned int i = 0; i < order.size(); ++i)
       result[order[i]] = sorted[i];
@@ -151,6 +202,7 @@ public:
 private:
   std::vector<typename CellSet<dim>::Key> keys;
   std::vector<unsigned int>               numbers;
+  std::vector<CellPlace>                  places;
   CellPairs                               neighbours;
   std::vector<double>                     areas;
 };

@@ -35,6 +35,17 @@ bool makes_cubes(const CellSet<dim> &set, const std::string &method)
   const double few = 0.1;
   return set.layered && method != "METIS" && set.n_slender <= few * set.n_global;
 }
+/// Return the mean number of unknowns of the cells divided by that of a cell of no element, rounded
+/// so that the order of the sum does not matter. Collective.
+template <int dim>
+double work_per_cell(const CellSet<dim> &set)
+{
+  double work = 0.;
+  for (const auto &place : set.places)
+    work += place.second;
+  work = dealii::Utilities::MPI::sum(work, set.communicator) / set.n_global;
+  return std::round(1e6 * work) / 1e6;
+}
 } // namespace
 
 CellsPerSubdomain cells_per_subdomain(const unsigned int  dim,
@@ -67,7 +78,8 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
   std::vector<double> cells_each;
   for (const auto &set : sets)
     if (parameters.subdomains == 0)
-      cells_each.push_back(makes_cubes(set, parameters.method) ? by_size.compact : by_size.other);
+      cells_each.push_back(
+        makes_cubes(set, parameters.method) ? by_size.compact : by_size.other / work_per_cell(set));
     else
       cells_each.push_back(std::max(1., double(n_cells) / parameters.subdomains));
   if (parameters.subdomains == 0)

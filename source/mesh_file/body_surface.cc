@@ -151,8 +151,11 @@ template <int dim>
 bool BodySurface<dim>::stands_out(const Corners &ridge, const std::set<unsigned int> &smooth) const
 {
   const auto &at = ridges.at(ridge).facets;
-  if (at.size() != 2 || facets[at[0]].boundary != facets[at[1]].boundary)
+  if (at.size() != 2 || facets[at[0]].boundary != facets[at[1]].boundary ||
+      facets[at[0]].face != facets[at[1]].face)
     return true;
+  if (facets[at[0]].face != Facet::no_face)
+    return false;
   return smooth.count(facets[at[0]].boundary) == 0 && kink(ridge) > 30.;
 }
 

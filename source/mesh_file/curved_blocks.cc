@@ -2,6 +2,8 @@
 #include <snug/mesh_file/curved_blocks.h>
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 namespace snug::mesh_file {
 namespace {
@@ -167,6 +169,47 @@ private:
     mesh.vertices[cells.split->middle(corners)] = sum;
   }
 };
+/// Return points of the true surface: the middles of the curves at the boundary and of the facets.
+template <int dim>
+std::vector<dealii::Point<dim>> surface_points(const BodySurface<dim>    &surface,
+                                               const CurvedBoundary<dim> &boundary)
+{
+  std::vector<dealii::Point<dim>> result;
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+    {
+      for (const Corners &edge : surface.edges(f))
+        if (const auto found = boundary.curves.find(edge); found != boundary.curves.end())
+          result.push_back(found->second->position({0.5, 0.}));
+      if (dim == 3 && boundary.patches[f])
+        result.push_back(boundary.patches[f]->position(surface.facets[f].corners.size() == 3
+                                                         ? dealii::Point<2>(1. / 3., 1. / 3.)
+                                                         : dealii::Point<2>(0.5, 0.5)));
+    }
+  return result;
+}
+
+/// Return the warning for the curves that were moved towards straight ones. Curves inside the body
+/// do not change the surface.
+template <int dim>
+std::string straightening_warning(const std::size_t                      n_patches,
+                                  const std::vector<dealii::Point<dim>> &before,
+                                  const std::vector<dealii::Point<dim>> &after,
+                                  const std::vector<dealii::Point<dim>> &vertices)
+{
+  double distance = 0., size = 0.;
+  for (unsigned int i = 0; i < before.size(); ++i)
+    distance = std::max(distance, before[i].distance(after[i]));
+  for (const auto &vertex : vertices)
+    size = std::max(size, vertex.distance(vertices.front()));
+  std::ostringstream text;
+  text
+    << std::setprecision(2) << n_patches
+    << " curved edges and faces were moved towards straight ones, because cells at them would be "
+       "too thin: maximum distance from the true surface "
+    << distance << " (" << 100. * distance / size
+    << " % of the size of the body); smaller elements keep the true surface";
+  return text.str();
+}
 } // namespace
 
 template <int dim>
@@ -174,7 +217,7 @@ void curve_blocks(geometry::BlockMesh<dim> &mesh,
                   const SplitCells         &cells,
                   const BodySurface<dim>   &surface,
                   const SurfaceShapes<dim> &shapes,
-                  std::vector<std::string> &notes)
+                  std::vector<std::string> &warnings)
 {
   const CurvedBoundary<dim> boundary(surface, shapes);
   if (boundary.curves.empty())
@@ -194,6 +237,7 @@ void curve_blocks(geometry::BlockMesh<dim> &mesh,
       least[b] = geometry::least_scaled_jacobian<dim>(mesh.vertices, mesh.blocks[b], {});
   std::set<geometry::Patch<dim> *> straightened;
   curving.place_middles(true);
+  const auto on_surface = surface_points(surface, boundary);
   // After 20 turns curves are straight up to a millionth of their initial offset.
   for (unsigned int turn = 0; turn < 20; ++turn)
     {
@@ -212,8 +256,9 @@ void curve_blocks(geometry::BlockMesh<dim> &mesh,
       curving.place_middles(true);
     }
   if (!straightened.empty())
-    notes.push_back(std::to_string(straightened.size()) +
-                    " curved edges and faces straightened to keep thin cells valid");
+    warnings.push_back(straightening_warning<dim>(straightened.size(), on_surface,
+                                                  surface_points(surface, boundary),
+                                                  surface.points));
   mesh.known_surfaces = shapes.known();
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
     if (boundary.is_on_known(f))

@@ -162,7 +162,9 @@ std::array<dealii::Tensor<1, dim>, 2>
 CurvedBoundary<dim>::coefficients(const Corners                            &edge,
                                   const geometry::GeometryConstraints<dim> &constraints)
 {
-  const auto at  = facets_of(edge);
+  const auto at = facets_of(edge);
+  if (constraints.first)
+    return surface.quadratic(edge);
   const auto has = [&](const Kind kind) {
     return std::any_of(at.begin(), at.end(),
                        [&](const unsigned int f) { return shapes.of_facet(f).kind == kind; });
@@ -205,10 +207,15 @@ void CurvedBoundary<dim>::add_curve(const Corners &edge)
     if (shapes.of_facet(f).kind == Kind::facets)
       return;
   const Point &a = surface.points[edge[0]], &b = surface.points[edge[1]];
-  const auto   on = shapes.constraints(at);
-  const auto   c  = coefficients(edge, on);
+  auto         on    = shapes.constraints(at);
+  const auto   found = surface.middles.find(edge);
+  const Point  middle =
+    found == surface.middles.end() ? Point(0.5 * (a + b)) : surface.points[found->second];
+  on.first     = shapes.projection(at, middle);
+  const auto c = coefficients(edge, on);
   // The edge is straight up to rounding.
-  if (on.surfaces.empty() && std::max(c[0].norm(), c[1].norm()) < 1e-12 * a.distance(b))
+  if (!on.first && on.surfaces.empty() &&
+      std::max(c[0].norm(), c[1].norm()) < 1e-12 * a.distance(b))
     return;
   curves[edge] = std::make_shared<geometry::Curve<dim>>(a, b, c, on);
 }
@@ -226,7 +233,7 @@ std::shared_ptr<geometry::Patch<3>> CurvedBoundary<3>::patch(const unsigned int 
   const auto &shape   = shapes.of_facet(facet);
   const auto &corners = surface.facets[facet].corners;
   const auto  result  = std::make_shared<geometry::FacetPatch>();
-  bool        curved  = shape.kind == Kind::known;
+  bool        curved  = shape.kind == Kind::known || shape.kind == Kind::exact;
   for (unsigned int i = 0; i < corners.size(); ++i)
     {
       result->corners.push_back(surface.points[corners[i]]);
@@ -241,6 +248,8 @@ std::shared_ptr<geometry::Patch<3>> CurvedBoundary<3>::patch(const unsigned int 
   if (shape.kind == Kind::known)
     result->surface =
       std::make_shared<geometry::KnownSurface<3>>(shapes.known()[shape.known_index]);
+  else if (shape.kind == Kind::exact)
+    result->surface = shape.projection;
   const auto middle = surface.middles.find(sorted(corners));
   if (corners.size() == 4 && middle != surface.middles.end() &&
       (shape.kind == Kind::quadratic || shape.kind == Kind::plane))
@@ -270,7 +279,8 @@ bool CurvedBoundary<3>::is_on_known(const unsigned int facet) const
     return false;
   // Edges may be off the surface where a neighbour is faceted or touches at a small angle.
   const auto &patch = dynamic_cast<const geometry::FacetPatch &>(*patches[facet]);
-  return patch.gap() <= 1e-12 * patch.corners[0].distance(patch.surface->centre);
+  const auto &known = shapes.known()[shapes.of_facet(facet).known_index];
+  return patch.gap() <= 1e-12 * patch.corners[0].distance(known.centre);
 }
 
 template class CurvedBoundary<2>;

@@ -20,8 +20,10 @@ template <int dim>
 class Importer
 {
 public:
-  Importer(const MeshFile &file, const geometry::BodyMeshParameters &parameters)
-    : parameters(parameters), file(file), points(file.points)
+  Importer(const MeshFile                     &file,
+           const geometry::BodyMeshParameters &parameters,
+           const ExactFaces<dim>              *exact)
+    : parameters(parameters), file(file), exact(exact), points(file.points)
   {}
 
   geometry::BlockMesh<dim> blocks()
@@ -51,17 +53,19 @@ public:
     return mesh;
   }
 
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 
 private:
   const geometry::BodyMeshParameters &parameters;
   const MeshFile                     &file;
+  const ExactFaces<dim>              *exact; ///< null: none
   std::vector<dealii::Point<3>>       points;
   std::vector<Element>                cells;
   std::unique_ptr<ElementSplit>       split; ///< null: no element is split
   geometry::BlockMesh<dim>            mesh;
   /// faces -> number of cells that share the face
   std::map<Corners, unsigned int> n_cells_of_face;
+  std::map<Corners, unsigned int> exact_face; ///< corners of an element -> index of its face
 
   std::vector<Corners> parts(const Element &element)
   {
@@ -87,6 +91,17 @@ private:
     return cell.groups.empty() ? "body" : cell.groups.back();
   }
 
+  geometry::ElementPart<dim> part_at(const unsigned int corner, const Element &cell) const
+  {
+    geometry::ElementPart<dim> result;
+    result.element   = &cell - cells.data();
+    result.n_corners = cell.corners.size();
+    result.corner    = corner;
+    const auto &ends = corner_neighbours(cell.shape)[corner];
+    std::copy(ends.begin(), ends.end(), result.towards.begin());
+    return result;
+  }
+
   void add_blocks()
   {
     for (const auto &cell : cells)
@@ -95,10 +110,13 @@ private:
         for (const auto &group : cell.groups)
           index_in(mesh.region_names, group);
         const auto region = index_in(mesh.region_names, region_of(cell));
-        for (const auto &part : parts(cell))
+        const auto blocks = parts(cell);
+        for (unsigned int corner = 0; corner < blocks.size(); ++corner)
           {
-            mesh.blocks.push_back(part);
+            mesh.blocks.push_back(blocks[corner]);
             mesh.regions.push_back(region);
+            if (split)
+              mesh.parts.push_back(part_at(corner, cell));
           }
       }
     if (split)
@@ -125,6 +143,10 @@ private:
     notes.insert(notes.end(), names.notes.begin(), names.notes.end());
     for (const auto &[face, name] : names.named())
       mesh.boundaries[face] = index_in(mesh.boundary_names, name);
+    if (exact != nullptr)
+      for (const auto &element : file.elements)
+        if (dimension(element.shape) == dim - 1 && !element.groups.empty())
+          exact_face[sorted(element.corners)] = exact->face_of_group.at(element.groups.back());
     for (const auto &entry : n_cells_of_face)
       if (entry.second == 1 && mesh.boundaries.count(entry.first) == 0)
         mesh.boundaries[entry.first] = index_in(mesh.boundary_names, "free");
@@ -143,8 +165,12 @@ private:
   {
     std::vector<Facet> result;
     for (const auto &face : outer_faces(cells))
-      result.push_back(
-        {face, mesh.boundaries.at(sorted(parts({face_shape(face), face, {}, 0, 0})[0]))});
+      {
+        const auto own = exact_face.find(sorted(face));
+        result.push_back({face,
+                          mesh.boundaries.at(sorted(parts({face_shape(face), face, {}, 0, 0})[0])),
+                          own == exact_face.end() ? Facet::no_face : own->second});
+      }
     return result;
   }
 
@@ -180,9 +206,9 @@ private:
       mesh.vertices.push_back(in_space(point));
     BodySurface<dim> surface({mesh.vertices.begin(), mesh.vertices.begin() + file.points.size()},
                              middles(), facets(), smooth);
-    const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes);
+    const SurfaceShapes<dim> shapes(surface, parameters, mesh.boundary_names, notes, exact);
     mesh.shapes = shapes.of_boundaries();
-    curve_blocks(mesh, {cells, split.get()}, surface, shapes, notes);
+    curve_blocks(mesh, {cells, split.get()}, surface, shapes, warnings);
   }
 
   /// Remove points of other regions and middle nodes of quadratic elements, because BlockGeometry
@@ -229,43 +255,24 @@ private:
   }
 };
 
-/// Return the hash FNV-1a of 64 bits, which is equal on all machines, unlike std::hash.
-std::uint64_t fnv_hash(const std::string &text)
+/// Set the blocks of the dimension of @p mesh.
+void set_blocks(geometry::ImportedMesh &mesh, std::shared_ptr<const geometry::BlockMesh<2>> blocks)
 {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const unsigned char c : text)
-    hash = (hash ^ c) * 1099511628211u;
-  return hash;
+  mesh.flat = std::move(blocks);
 }
 
-template <int dim>
-std::shared_ptr<const geometry::BlockMesh<dim>>
-make_blocks(const MeshFile                     &file,
-            const geometry::BodyMeshParameters &parameters,
-            std::vector<std::string>           &notes)
+void set_blocks(geometry::ImportedMesh &mesh, std::shared_ptr<const geometry::BlockMesh<3>> blocks)
 {
-  Importer<dim> importer(file, parameters);
-  auto          mesh = std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks());
-  notes              = importer.notes;
-  return mesh;
+  mesh.solid = std::move(blocks);
 }
-} // namespace
 
-std::shared_ptr<const geometry::ImportedMesh>
-import_mesh(const std::string                  &text,
-            const geometry::BodyMeshParameters &parameters,
-            const unsigned int                  dim)
+/// Run @p work, and complete the message of an error of the file by the entry of the file.
+template <typename Work>
+auto with_entry(const geometry::BodyMeshParameters &parameters, const Work &work)
 {
   try
     {
-      const MeshFile file   = read_mesh_file(text);
-      auto           result = std::make_shared<geometry::ImportedMesh>();
-      result->text_hash     = fnv_hash(text);
-      if (dim == 2)
-        result->flat = make_blocks<2>(file, parameters, result->notes);
-      else
-        result->solid = make_blocks<3>(file, parameters, result->notes);
-      return result;
+      return work();
     }
   catch (const InputError &error)
     {
@@ -274,7 +281,48 @@ import_mesh(const std::string                  &text,
       const std::string message = printable(error.what());
       if (message.rfind("entry '", 0) == 0)
         throw InputError(message);
-      throw bad_entry("Mesh file", parameters.file, message);
+      throw bad_entry("File", parameters.file, message);
     }
 }
+} // namespace
+
+std::uint64_t text_hash(const std::string &text)
+{
+  std::uint64_t hash = 14695981039346656037u;
+  for (const unsigned char c : text)
+    hash = (hash ^ c) * 1099511628211u;
+  return hash;
+}
+
+template <int dim>
+std::shared_ptr<geometry::ImportedMesh> import_mesh(const MeshFile                     &file,
+                                                    const geometry::BodyMeshParameters &parameters,
+                                                    const ExactFaces<dim>              *exact)
+{
+  return with_entry(parameters, [&]() {
+    auto          result = std::make_shared<geometry::ImportedMesh>();
+    Importer<dim> importer(file, parameters, exact);
+    set_blocks(*result, std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks()));
+    result->notes    = importer.notes;
+    result->warnings = importer.warnings;
+    return result;
+  });
+}
+
+std::shared_ptr<const geometry::ImportedMesh>
+import_mesh(const std::string                  &text,
+            const geometry::BodyMeshParameters &parameters,
+            const unsigned int                  dim)
+{
+  const MeshFile file = with_entry(parameters, [&]() { return read_mesh_file(text); });
+  const auto     result =
+    dim == 2 ? import_mesh<2>(file, parameters) : import_mesh<3>(file, parameters);
+  result->text_hash = text_hash(text);
+  return result;
+}
+
+template std::shared_ptr<geometry::ImportedMesh>
+import_mesh(const MeshFile &, const geometry::BodyMeshParameters &, const ExactFaces<2> *);
+template std::shared_ptr<geometry::ImportedMesh>
+import_mesh(const MeshFile &, const geometry::BodyMeshParameters &, const ExactFaces<3> *);
 } // namespace snug::mesh_file

@@ -53,11 +53,13 @@ template <int dim>
 SurfaceShapes<dim>::SurfaceShapes(BodySurface<dim>                   &the_surface,
                                   const geometry::BodyMeshParameters &parameters,
                                   const std::vector<std::string>     &boundary_names,
-                                  std::vector<std::string>           &notes)
+                                  std::vector<std::string>           &notes,
+                                  const ExactFaces<dim>              *exact)
   : surface(the_surface)
   , parameters(parameters)
   , names(boundary_names)
   , notes(notes)
+  , exact(exact)
   , digit(last_digit(surface.points))
 {
   read_entries();
@@ -113,6 +115,8 @@ template <int dim>
 typename SurfaceShapes<dim>::Shape
 SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
 {
+  if (surface.facets[part[0]].face != Facet::no_face)
+    return exact_shape(part);
   Shape              result;
   const unsigned int boundary  = surface.facets[part[0]].boundary;
   const std::string  want      = wanted.count(boundary) > 0 ? wanted[boundary] : "";
@@ -128,13 +132,13 @@ SurfaceShapes<dim>::shape_of(const std::vector<unsigned int> &part)
   const auto  &name      = names[boundary];
   if (is_plane(points, tolerance, result.normal))
     result.kind = Kind::plane;
-  // A boundary of few facets may be round or a polygon. Its nodes lie on a circle in either case.
+  else if ((result.known_index = recognized(points, tolerance, name, kink)) != none)
+    result.kind = Kind::known;
+  // A boundary of few facets may be smooth or a polyhedron.
   else if (kink > 15.)
     add_once(notes, "boundary " + name + " is kept faceted: neighbouring facets meet at up to " +
                       std::to_string(std::lround(kink)) + " degrees; 'Surface = " + name +
                       ": smooth' makes it smooth");
-  else if ((result.known_index = recognized(points, tolerance, name)) != none)
-    result.kind = Kind::known;
   else
     result.kind = quadratic ? Kind::quadratic : Kind::smooth;
   if (result.kind == Kind::quadratic)
@@ -220,6 +224,9 @@ void SurfaceShapes<dim>::name_boundaries()
           case Kind::smooth:
             found[boundary].insert("smooth");
             break;
+          case Kind::exact:
+            found[boundary].insert("CAD surface");
+            break;
           case Kind::facets:
             found[boundary].insert("facets");
             double &height = boundary_shapes[boundary].facet_height;
@@ -235,17 +242,58 @@ void SurfaceShapes<dim>::name_boundaries()
     }
 }
 
+/// Return the index of the known surface on which all points lie, or the number of surfaces.
 template <int dim>
-unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &points,
-                                            const double                        tolerance,
-                                            const std::string                  &name)
+unsigned int SurfaceShapes<dim>::matching(const geometry::SurfaceSample<dim> &points,
+                                          const double                        tolerance) const
 {
-  // Two parts of one cylinder use the same surface, and not two surfaces that differ by round-off.
   unsigned int index = 0;
   while (index < surfaces.size() &&
          !(points.largest_distance(surfaces[index]) <= tolerance &&
            points.oriented(surfaces[index]).convex == surfaces[index].convex))
     ++index;
+  return index;
+}
+
+template <int dim>
+typename SurfaceShapes<dim>::Shape
+SurfaceShapes<dim>::exact_shape(const std::vector<unsigned int> &part)
+{
+  const Facet &facet = surface.facets[part[0]];
+  const auto  &face  = exact->faces[facet.face];
+  Shape        result;
+  if (face.plane)
+    {
+      result.kind   = Kind::plane;
+      result.normal = *face.plane * surface.normal(part[0]) > 0. ? *face.plane : -*face.plane;
+      return result;
+    }
+  const auto points = sample(part, true);
+  double     size   = 0.;
+  for (const Point &point : points.points)
+    size = std::max(size, point.distance(points.points[0]));
+  const double rounding = 1e-12 * size;
+  if (face.known)
+    {
+      result.known_index = matching(points, rounding);
+      if (result.known_index == surfaces.size())
+        surfaces.push_back(points.oriented(*face.known));
+    }
+  else
+    result.known_index = recognized(points, 1e-6 * size, names[facet.boundary], 0.);
+  result.kind       = result.known_index == none ? Kind::exact : Kind::known;
+  result.projection = face.projection;
+  return result;
+}
+
+template <int dim>
+unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &points,
+                                            const double                        tolerance,
+                                            const std::string                  &name,
+                                            const double                        kink)
+{
+  // Two parts of one cylinder use the same surface, and not two surfaces that differ by round-off.
+  const unsigned int index = matching(points, tolerance);
   if (index == surfaces.size())
     {
       const auto found = geometry::recognized_surface(points, tolerance);
@@ -257,6 +305,9 @@ unsigned int SurfaceShapes<dim>::recognized(const geometry::SurfaceSample<dim> &
   text << "boundary " << name << " is a " << geometry::describe(surfaces[index])
        << " (maximum deviation " << std::setprecision(1) << points.largest_distance(surfaces[index])
        << ")";
+  if (kink > 15.)
+    text << ", although neighbouring facets meet at up to " << std::lround(kink)
+         << " degrees; 'Surface = " << name << ": facets' keeps the facets";
   add_once(notes, text.str());
   return index;
 }
@@ -278,6 +329,23 @@ SurfaceShapes<dim>::constraints(const std::vector<unsigned int> &facets) const
   for (const unsigned int index : indices)
     result.surfaces.push_back(surfaces[index]);
   return result;
+}
+
+template <int dim>
+std::shared_ptr<const geometry::Projection<dim>>
+SurfaceShapes<dim>::projection(const std::vector<unsigned int> &facets, const Point &middle) const
+{
+  // Edges between planes are straight.
+  if (exact == nullptr || std::all_of(facets.begin(), facets.end(), [&](const unsigned int f) {
+        return of_facet(f).kind == Kind::plane;
+      }))
+    return {};
+  const unsigned int first = surface.facets[facets[0]].face;
+  const unsigned int last  = surface.facets[facets.back()].face;
+  if (first != last)
+    return exact->curve(first, last, middle);
+  const Shape &shape = of_facet(facets[0]);
+  return shape.kind == Kind::exact ? shape.projection : nullptr;
 }
 
 /// Move nodes onto known surfaces to the last digit, because otherwise the rounding of the file

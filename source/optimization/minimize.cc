@@ -130,8 +130,9 @@ std::string failure_reason(const OptimizationResult     &result,
   std::ostringstream text;
   text << "the optimization has not converged: it stopped by " << result.stop_reason;
   if (!is_feasible)
-    text << "; the final design violates a constraint by " << result.constraint_violation
-         << " of its limit";
+    text << "; the final design violates "
+         << (result.violated.empty() ? "a constraint" : "'" + result.violated + "'") << " by "
+         << result.constraint_violation << " of its limit";
   return text.str();
 }
 

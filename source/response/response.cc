@@ -12,14 +12,15 @@ ChoiceTable<MakeResponse<dim>> body_responses()
   using State = state::ContactState<dim>;
   return {
     {"potential energy",
-     "1/2 u'Ku - f'u [force length]. Its minimum at fixed volume makes the contact pressure "
-     "uniform.",
+     "strain energy minus compliance, 1/2 u'Ku - f'u [force length]. Its minimum at fixed volume "
+     "makes the contact pressure uniform.",
      [](const Parameters &) { return work<dim>(&State::energy, 1., -1.); }},
     {"compliance",
      "f'u, the work of the loads [force length]. It decreases if the design lifts a body that is "
      "held by contact alone.",
      [](const Parameters &) { return work<dim>(&State::compliance, 0., 1.); }},
-    {"strain energy", "1/2 u'Ku [force length]",
+    {"strain energy",
+     "1/2 u'Ku, the elastic energy of bodies and springs, without thermal strains [force length]",
      [](const Parameters &) { return work<dim>(&State::strain_energy, 1., 0.); }},
     {"volume", "volume of one body or all bodies [length^3]",
      [](const Parameters &parameters) { return body_integral<dim>(parameters, false); }},
@@ -34,7 +35,8 @@ ChoiceTable<MakeResponse<dim>> body_responses()
      "'Moment' of the face is the only load.",
      rotation<dim>},
     {"reaction",
-     "component in space of the force that supports apply to the nodes of a face [force]",
+     "component in space of the force that supports and springs apply to the nodes of a face "
+     "[force]",
      reaction<dim>},
     {"reaction moment",
      "moment of these forces about the axis 'Component' through 'Point' in space [force length]",
@@ -161,6 +163,15 @@ const ChoiceTable<MakeResponse<dim>> &response_table()
   return table;
 }
 
+/// The meaning of a quantity gives its unit in the first brackets.
+template <int dim>
+std::string unit_of(const std::string &quantity)
+{
+  const std::string &meaning = choose(response_table<dim>(), quantity).meaning;
+  const auto         begin = meaning.find('['), end = meaning.find(']');
+  return begin == std::string::npos ? "" : meaning.substr(begin + 1, end - begin - 1);
+}
+
 template <int dim>
 std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameters)
 {
@@ -169,6 +180,8 @@ std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameter
 
 template const ChoiceTable<MakeResponse<2>> &response_table<2>();
 template std::unique_ptr<Response<2>>        make_response<2>(const ResponseParameters &);
+template std::string                         unit_of<2>(const std::string &);
+template std::string                         unit_of<3>(const std::string &);
 template const ChoiceTable<MakeResponse<3>> &response_table<3>();
 template std::unique_ptr<Response<3>>        make_response<3>(const ResponseParameters &);
 } // namespace snug::response

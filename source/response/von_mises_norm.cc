@@ -50,7 +50,8 @@ public:
       const auto                          X         = assembler.cell_field(i, state.positions);
       std::vector<dealii::Tensor<1, dim>> by_u(X.size()), by_X(X.size());
       power.add_gradients(X, assembler.material(i), assembler.cell_values(i, state.u[s].column(0)),
-                          J / (p * of.power), by_u, by_X);
+                          J / (p * of.power), by_u, by_X,
+                          assembler.thermal_strain(i, state.load_case));
       assembler.element().add_volume_gradient(X, -J / (p * of.volume), by_X);
       // dJ/du belongs to the unknowns of the subdomain, where masters replace hanging nodes.
       // dJ/dX belongs to the nodes of the mesh, including hanging nodes.
@@ -117,7 +118,8 @@ private:
       result.volume += assembler.element().volume(X);
       result.scale =
         std::max(result.scale, stress.largest(X, assembler.material(i),
-                                              assembler.cell_values(i, state.u[s].column(0))));
+                                              assembler.cell_values(i, state.u[s].column(0)),
+                                              assembler.thermal_strain(i, state.load_case)));
     });
     result.scale  = dealii::Utilities::MPI::max(result.scale, comm);
     result.volume = dealii::Utilities::MPI::sum(result.volume, comm);
@@ -128,7 +130,8 @@ private:
     state::for_each_cell<dim>(solver, body, [&](unsigned int s, unsigned int i) {
       const auto &assembler = *solver.assemblers()[s];
       result.power += power.value(assembler.cell_field(i, state.positions), assembler.material(i),
-                                  assembler.cell_values(i, state.u[s].column(0)));
+                                  assembler.cell_values(i, state.u[s].column(0)),
+                                  assembler.thermal_strain(i, state.load_case));
     });
     result.power = dealii::Utilities::MPI::sum(result.power, comm);
     return result;

@@ -1,5 +1,6 @@
 #include <snug/response/quantities.h>
 #include <snug/state/cell_gradients.h>
+#include <snug/state/thermal.h>
 
 namespace snug::response {
 namespace {
@@ -13,7 +14,7 @@ public:
     : member(value), stiffness(stiffness), load(load)
   {}
 
-  /// Return whether J = 1/2 u'Ku - f'u, which has dJ/du = Ku - f = -B'lambda.
+  /// Return whether J is the potential energy, which has dJ/du = Ku - f - f_T = -B'lambda.
   bool stationary() const override { return stiffness == 1. && load == -1.; }
 
   double value(const state::StateSolver<dim> &, const State &state) const override
@@ -51,10 +52,45 @@ public:
     if (load != 0.)
       // The loads are dead loads: f depends on X, not on u.
       state::add_load_gradient(solver, state, state.u, load, result.positions);
+    if (stiffness != 0. && !solver.springs().empty())
+      add_springs(solver, state, result);
+    if (state::has_temperature(solver, state))
+      add_thermal(solver, state, result);
     return result;
   }
 
 private:
+  /// The springs have the energy 1/2 sum kappa (c . u)^2, which has the derivative B'lambda in u.
+  void add_springs(const state::StateSolver<dim> &solver,
+                   const State                   &state,
+                   Partials<dim>                 &partials) const
+  {
+    const auto     &linear = solver.feti(state).linearization();
+    qp::MultiVector forces(state.dual.lambda.n_rows());
+    for (unsigned int i = 0; i < forces.n_rows(); ++i)
+      if (linear.compliance(i) > 0.)
+        forces(i) = stiffness * state.dual.lambda(i);
+    const auto by_u = linear.multiply_Bt(forces);
+    for (unsigned int s = 0; s < by_u.size(); ++s)
+      partials.u[s].add(1., by_u[s]);
+    const auto of_u = solver.gluing(state.load_case).spring_forces(state.dual.lambda.column(0));
+    solver.springs().add_energy_gradient(state.positions, of_u, state.displacement, of_u,
+                                         state.displacement, stiffness / 2., partials.positions);
+  }
+
+  /// The loads contain those of thermal strains, f_T, which count in the strain energy alone. Add
+  /// stiffness * (c_T - f_T'u) - load * f_T'u.
+  void add_thermal(const state::StateSolver<dim> &solver,
+                   const State                   &state,
+                   Partials<dim>                 &partials) const
+  {
+    const double work = -stiffness - load;
+    const auto   f_T  = state::thermal_loads(solver, state);
+    for (unsigned int s = 0; s < f_T.size(); ++s)
+      partials.u[s].add(work, f_T[s]);
+    state::add_thermal_gradient(solver, state, work, stiffness, partials.positions);
+  }
+
   double State::*member;
   double         stiffness, load;
 };

@@ -2,8 +2,10 @@
 #include <snug/geometry/formula.h>
 #include <snug/geometry/regions.h>
 #include <snug/scene/check.h>
+#include <snug/scene/placed_force.h>
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 namespace snug::scene {
@@ -91,6 +93,60 @@ void check_supports(const SectionCheck &section, const Body &body)
                             error.what() + std::string("; ") + component_names(section.dimension));
       }
 }
+void check_springs(const SectionCheck &section, const Body &body)
+{
+  std::set<std::pair<std::string, unsigned int>> known;
+  const std::string                              value = to_text(body.springs);
+  for (const auto &[boundary, text] : body.springs)
+    {
+      require_boundary(section, "Springs", value, body, boundary);
+      const auto [words, formula] = split_displacement(text);
+      std::vector<unsigned int> components;
+      try
+        {
+          components = component_list(words, section.dimension);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw section.error("Springs", value,
+                              error.what() + std::string("; ") +
+                                component_names(section.dimension));
+        }
+      section.require(!components.empty() && !formula.empty(), "Springs", value,
+                      "'" + quotable(text) + "' must read 'components = formula'");
+      geometry::require_formula(section, "Springs", value, formula);
+      for (const unsigned int c : components)
+        section.require(known.insert({boundary, c}).second, "Springs", value,
+                        "'" + boundary + "' must not have two springs in one direction");
+    }
+  const std::string points = to_text(body.point_springs);
+  for (const auto &[boundary, text] : body.point_springs)
+    {
+      require_boundary(section, "Point springs", points, body, boundary);
+      try
+        {
+          const auto given = placed_force(text, section.dimension);
+          section.require(!given.at.empty() && given.from.empty() && given.to.empty() &&
+                            given.along.empty(),
+                          "Point springs", points,
+                          "the spring of '" + boundary + "' must read 'x y z at x y z'");
+          double sum = 0.;
+          for (const double stiffness : given.force)
+            {
+              section.require(stiffness >= 0., "Point springs", points,
+                              "stiffnesses must not be negative");
+              sum += stiffness;
+            }
+          section.require(sum > 0., "Point springs", points,
+                          "the spring of '" + boundary + "' must have a stiffness");
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw section.error("Point springs", points,
+                              "spring of '" + boundary + "': " + quotable(error.what()));
+        }
+    }
+}
 } // namespace
 
 void Body::declare(Entries &entries)
@@ -112,6 +168,16 @@ void Body::declare(Entries &entries)
     "The displacement components that boundaries hold at zero: 'bottom: xyz, left: x'. "
     "'normal' is the component along the outward normal of a flat, oblique or curved face, "
     "for symmetry planes and rollers: 'side: normal, end: normal z'.");
+  entries.add(
+    "Springs", springs, allowed("a list 'boundary: components = formula, ...'"),
+    "The springs between boundaries and the ground, with the components as in 'Supports' and "
+    "the stiffness per area as a formula of x, y, z in the reference geometry: 'bottom: "
+    "normal = 1000, side: xy = 50*z'. Springs pull as well as push. Units: force/length^3.");
+  entries.add(
+    "Point springs", point_springs, allowed("a list 'boundary: x y z at x y z, ...'"),
+    "The springs between points of boundaries and the ground, with the stiffness along x, "
+    "y, z and the place in the reference geometry: 'bottom: 0 0 1000 at 0.5 0.5 0'. Units: "
+    "force/length.");
   loads.declare(entries, "boundary", "top");
   entries.add("Body force",
               {[this]() { return to_text(body_force); },
@@ -119,6 +185,12 @@ void Body::declare(Entries &entries)
               allowed("formulas separated by commas or blanks, one per dimension"),
               "The force per volume along x, y, z, as formulas of x, y, z in the reference "
               "geometry. Units: force/length^3. An empty list means no body force.");
+  entries.add(
+    "Temperature", temperature, allowed("a formula of x, y, z"),
+    "The temperature above that of the unstressed body, a number or a formula of x, y, z in "
+    "the reference geometry, which causes the thermal strain 'Expansion' times "
+    "'Temperature': '80 + 20*x'. The temperature moves with the material. Units: "
+    "temperature. An empty value means none.");
 }
 
 void check_body(const Scene &scene, const SectionCheck &section, const Body &body)
@@ -130,6 +202,7 @@ void check_body(const Scene &scene, const SectionCheck &section, const Body &bod
                   "Formulation", to_text(body.formulation),
                   "must be standard for Model = plane stress, which does not lock");
   check_supports(section, body);
+  check_springs(section, body);
 }
 
 void check_loads(const SectionCheck &section, const Body &body, LoadParameters::Held &held)
@@ -148,5 +221,7 @@ void check_loads(const SectionCheck &section, const Body &body, LoadParameters::
                   "must have " + to_text(section.dimension) + " formulas, one per dimension");
   for (const auto &formula : body.body_force)
     geometry::require_formula(section, "Body force", value, formula);
+  if (!body.temperature.empty())
+    geometry::require_formula(section, "Temperature", body.temperature, body.temperature);
 }
 } // namespace snug::scene

@@ -1,3 +1,4 @@
+#include <snug/geometry/formula.h>
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
 #include <snug/sensitivity/methods.h>
@@ -39,7 +40,25 @@ void check_model(const Scene &scene, const SectionCheck &top)
                                      "axisymmetric for Dimension = 2");
   top.require(plane || scene.thickness == 1., "Thickness", to_text(scene.thickness),
               "must be left out for Model = " + to_text(scene.model));
+  const bool no_names = scene.units.empty();
+  top.require(no_names || (scene.units.size() == 2 && !scene.units[0].empty() &&
+                           !scene.units[1].empty() && scene.units[0] != scene.units[1]),
+              "Units", to_text(scene.units), "must be two different names, 'length, force'");
   top.require(!scene.output_directory.empty(), "Output directory", "", "must not be empty");
+}
+
+/// Throw unless a body with a temperature has a material that expands.
+void require_expansion(const Scene        &scene,
+                       const SectionCheck &section,
+                       const std::string  &value,
+                       const Body         &body)
+{
+  bool expands = body.materials.empty() && body.material.expansion != 0.;
+  for (const auto &[region, name] : body.materials)
+    for (const auto &known : scene.materials)
+      expands = expands || (known.name == name && known.material.expansion != 0.);
+  section.require(expands, "Temperature", value,
+                  "must be empty, because the material of '" + body.name + "' has no 'Expansion'");
 }
 
 /// Check the loads of bodies and load cases.
@@ -47,7 +66,12 @@ void check_all_loads(const Scene &scene, const Origins &origins)
 {
   LoadParameters::Held held;
   for (const auto &body : scene.bodies)
-    check_loads(SectionCheck(body.section(), origins, scene.dimension), body, held);
+    {
+      const SectionCheck section(body.section(), origins, scene.dimension);
+      check_loads(section, body, held);
+      if (!body.temperature.empty())
+        require_expansion(scene, section, body.temperature, body);
+    }
   for (const auto &load_case : scene.load_cases)
     {
       const SectionCheck section(load_case.section(), origins, scene.dimension);
@@ -58,6 +82,15 @@ void check_all_loads(const Scene &scene, const Origins &origins)
       for (const auto &obstacle : scene.obstacles)
         names.push_back(obstacle.name);
       load_case.check_positions(section, names);
+      for (const auto &[name, formula] : load_case.temperatures)
+        {
+          const std::string  value = to_text(load_case.temperatures);
+          const unsigned int index = body_index(scene, name);
+          section.require(index < scene.bodies.size(), "Temperature", value,
+                          "there is no body '" + quotable(name) + "'");
+          geometry::require_formula(section, "Temperature", value, formula);
+          require_expansion(scene, section, value, scene.bodies[index]);
+        }
       const auto *before = &load_case == &scene.load_cases.front() ? nullptr : &load_case - 1;
       section.require(!load_case.load_step || before == nullptr ||
                         before->positions == load_case.positions,
@@ -88,6 +121,18 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
                   "Method", to_text(scene.gradient.method),
                   "must be auto, adjoint, direct or finite differences for the objective '" +
                     objective + "'");
+}
+
+/// Check that the dual problem has no springs where it is exported.
+void check_export(const Scene &scene, const Origins &origins)
+{
+  const bool has_springs =
+    std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) {
+      return !body.springs.empty() || !body.point_springs.empty();
+    });
+  SectionCheck("Output", origins, scene.dimension)
+    .require(!scene.output.export_qp || !has_springs, "Export QP", "true",
+             "must be false with springs, which the exported matrices do not contain");
 }
 
 /// Check what does not know friction.
@@ -161,6 +206,7 @@ void check(const Scene &scene, const Origins &origins)
   for (const auto &body : scene.bodies)
     check_body(scene, section(body.section()), body);
   check_all_loads(scene, origins);
+  check_export(scene, origins);
   check_contact(scene, origins);
   check_shapes(scene, origins);
   check_responses(scene, origins);

@@ -1,3 +1,4 @@
+#include <snug/geometry/face_list.h>
 #include <snug/scene/check.h>
 
 #include <algorithm>
@@ -20,8 +21,7 @@ void check_sides(const Scene                             &scene,
                     "' is an obstacle and must come second: "
                     "'body.boundary: " +
                     pair.slave + "'");
-  const auto slaves     = contact::faces_of_side(pair.slave),
-             masters    = contact::faces_of_side(pair.master);
+  const auto slaves = geometry::face_list(pair.slave), masters = geometry::face_list(pair.master);
   const auto check_side = [&](const std::vector<std::string> &faces) {
     for (const auto &face : faces)
       {

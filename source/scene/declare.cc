@@ -15,6 +15,15 @@ void add_names(Entries                  &entries,
               allowed("names separated by commas"), meaning);
 }
 
+/// Give access to a degree, which is 0 for auto.
+Access degree_or_auto(unsigned int &degree)
+{
+  return {[&degree]() { return degree == 0 ? "auto" : std::to_string(degree); },
+          [&degree](const std::string &text) {
+            degree = text == "auto" ? 0 : static_cast<unsigned int>(std::stoul(text));
+          }};
+}
+
 void declare_general(Entries &entries, Scene &scene)
 {
   entries.add("Task", scene.task, "The kind of run.");
@@ -26,6 +35,10 @@ void declare_general(Entries &entries, Scene &scene)
     "Thickness", scene.thickness, positive(),
     "The thickness to which forces, energies and volumes of plane strain and plane stress "
     "models refer. Units: length.");
+  entries.add("Units", scene.units, allowed("a list 'length, force'"),
+              "The names of the units of length and force, for the log, summary.json and pictures: "
+              "'mm, N' gives stresses in MPa. Numbers are never converted. An empty list means "
+              "results without units.");
   add_names(entries, "Bodies", scene.bodies,
             "The names of the bodies. Each body has a subsection Body NAME.");
   add_names(entries, "Materials", scene.materials,
@@ -49,11 +62,15 @@ void declare_general(Entries &entries, Scene &scene)
   entries.add("Output directory", scene.output_directory,
               "The name of the output directory, relative to the working directory. The directory "
               "is created if it does not exist.");
-  entries.add("Element degree", scene.degree,
-              with_meanings(choice({{"1"}, {"2"}}),
-                            {{"1", "bilinear in 2D, trilinear in 3D"},
-                             {"2", "biquadratic in 2D, triquadratic in 3D"}}),
-              "The polynomial degree of the elements.");
+  entries.add("Element degree", degree_or_auto(scene.degree),
+              with_meanings(choice({{"auto"}, {"1"}, {"2"}}),
+                            {{"auto", "2 if a mesh file of a body has tetrahedra or prisms, in 2D "
+                                      "triangles; 1 otherwise"},
+                             {"1", "bilinear in 2D, trilinear in 3D"},
+                             {"2", "biquadratic in 2D, triquadratic in 3D; quadratic on the "
+                                   "elements of mesh files that are split into cells, see "
+                                   "doc/theory.md"}}),
+              "The polynomial degree of the elements of all bodies.");
   entries.add(
     "Least scaled Jacobian", scene.least_scaled_jacobian, between(0., 0.99),
     "The minimum of det J over the product of the edge lengths, in all cells: 1 for right "

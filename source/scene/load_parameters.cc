@@ -2,6 +2,7 @@
 #include <snug/geometry/formula.h>
 #include <snug/geometry/rigid_motion.h>
 #include <snug/scene/check.h>
+#include <snug/scene/placed_force.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -57,6 +58,22 @@ void LoadParameters::declare(Entries &entries, const std::string &key, const std
               "The moment about the centroid of the boundary, distributed linearly over the "
               "boundary: '" +
                 where + ": 0 50 0'. One number in 2D. Units: force length.");
+  entries.add("Point force", point_forces, allowed(list + "x y z at x y z, ...'"),
+              "The forces at points of a boundary in the reference geometry: '" + where +
+                ": 0 0 -100 at 0.5 0.5 1'. A force stays at its material point. The stress at the "
+                "point is infinite in the limit of fine meshes. In sections the force is that of "
+                "the whole thickness or circumference. Units: force.");
+  entries.add("Line force", line_forces,
+              allowed(list + "x y z from x y z to x y z, ...' or '" + key +
+                      ": x y z along boundary, ...'"),
+              "The forces per length along straight lines on a boundary in the reference geometry, "
+              "'" +
+                where +
+                ": 0 0 -5 from 0 0 1 to 1 0 1', or along the common edge of two boundaries "
+                "of a body, '" +
+                where +
+                ": 0 0 -5 along left'. Lines stay on their material points. In 3D only. Units: "
+                "force/length.");
 }
 
 void LoadCaseParameters::declare(Entries &entries)
@@ -79,6 +96,7 @@ void LoadCaseParameters::declare(Entries &entries)
         "motions of two bodies, with the case number i of 'Cases'; numbers contain no "
         "blanks"}}),
     "The motions that bring bodies and obstacles to their places in this load case. Supports, "
+    "springs, "
     "loads, prescribed displacements and displacements turn with their body. Units: degrees, "
     "length.");
   entries.add(
@@ -93,6 +111,10 @@ void LoadCaseParameters::declare(Entries &entries)
     "in the load case before it in 'Load cases', which must have the same 'Position'. The loads "
     "are those at the end of the step. The first load case starts without slips.");
   declare_gravity(entries, gravity);
+  entries.add("Temperature", temperatures,
+              allowed("a list 'body: formula, ...' of different bodies"),
+              "The temperatures of bodies, as formulas of x, y, z in the reference geometry, in "
+              "addition to their own entries 'Temperature': 'punch: 100*z'. Units: temperature.");
   loads.declare(entries, "body.boundary", "punch.top");
 }
 
@@ -149,6 +171,49 @@ void LoadParameters::check(const SectionCheck &section, const RequireKey &requir
                     to_text(moment),
                     "the moment of '" + item.first + "' must have " +
                       (section.dimension == 2 ? "1 number" : "3 components separated by blanks"));
+  check_placed(section, require_key);
+}
+
+void LoadParameters::check_placed(const SectionCheck &section, const RequireKey &require_key) const
+{
+  const auto read = [&](const std::string &entry, const auto &forces, const auto &item) {
+    require_key(entry, to_text(forces), item.first);
+    try
+      {
+        return placed_force(item.second, section.dimension);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw section.error(entry, to_text(forces),
+                            "force of '" + item.first + "': " + quotable(error.what()));
+      }
+  };
+  for (const auto &item : point_forces)
+    {
+      const auto force = read("Point force", point_forces, item);
+      section.require(!force.at.empty() && force.from.empty() && force.to.empty() &&
+                        force.along.empty(),
+                      "Point force", to_text(point_forces),
+                      "the force of '" + item.first + "' must read 'x y z at x y z'");
+    }
+  section.require(line_forces.empty() || section.dimension == 3, "Line force", to_text(line_forces),
+                  "must be empty in 2D, where a line across the section is a 'Point force'");
+  for (const auto &item : line_forces)
+    {
+      const auto force   = read("Line force", line_forces, item);
+      const bool by_ends = !force.from.empty() && !force.to.empty();
+      section.require(force.at.empty() && by_ends == force.along.empty() &&
+                        force.from.empty() == force.to.empty(),
+                      "Line force", to_text(line_forces),
+                      "the force of '" + item.first +
+                        "' must read 'x y z from x y z to x y z' or 'x y z along boundary'");
+      section.require(!by_ends || force.from != force.to, "Line force", to_text(line_forces),
+                      "the line of '" + item.first + "' must have two different ends");
+      if (!by_ends)
+        // The other boundary belongs to the same body.
+        require_key("Line force", to_text(line_forces),
+                    item.first.substr(0, item.first.find('.') + 1) + force.along);
+    }
 }
 
 void LoadParameters::check_displacements(const SectionCheck &section,

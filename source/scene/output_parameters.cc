@@ -23,8 +23,8 @@ void OutputParameters::declare(Entries &entries)
     "9 the smallest files.");
   entries.add(
     "Ranks per file", ranks_per_file, at_least(1),
-    "The number of ranks whose cells share one file solution-STATE.GROUP.vtu. The first of "
-    "these ranks writes the file and needs memory for all of its content.");
+    "The number of ranks whose cells share a file of each body and boundary. The first of "
+    "these ranks writes these files and needs memory for all of their content.");
   entries.add(
     "Meshes", meshes,
     with_meanings(
@@ -33,6 +33,10 @@ void OutputParameters::declare(Entries &entries)
                    "contact pairs, supports and loads of the first load case"}}),
     "The formats in which the bodies of the last design are written, with the positions of the "
     "nodes without a load. An empty list means none.");
+  entries.add(
+    "Profile deviation", profile_deviation, at_least(0.),
+    "The maximum distance of the B-splines in profile.step from the shaped faces, relative to the "
+    "size of each face, the diagonal of its box. A value of 0 means that the file is not written.");
   entries.add(
     "Export QP", export_qp,
     "Whether to write the quadratic program of the first state and its solution into qp/, "

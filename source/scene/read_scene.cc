@@ -1,9 +1,11 @@
+#include <snug/cad/import_cad.h>
 #include <snug/mesh_file/deck_text.h>
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/scene/cases.h>
 #include <snug/scene/check.h>
 #include <snug/scene/read_scene.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -164,24 +166,25 @@ std::string mesh_text(const SceneSource &source, const std::string &file)
     }
   catch (const InputError &error)
     {
-      throw bad_entry("Mesh file", file, error.what());
+      throw bad_entry("File", file, error.what());
     }
 }
 
-/// Read the mesh files of all bodies. Their paths become absolute, so that the scene may be
-/// printed in another directory.
+/// Read the mesh files and CAD files of all bodies. Their paths become absolute, so that the scene
+/// may be printed in another directory.
 void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene)
 {
   for (auto &body : scene.bodies)
     {
       auto &mesh = body.mesh;
-      if (mesh.source != geometry::Source::file)
+      if (mesh.source != geometry::Source::file && mesh.source != geometry::Source::cad)
         continue;
       for (const auto &[region, material] : body.materials)
         mesh.named_regions.push_back(region);
       const SectionCheck section(body.section(), origins, scene.dimension);
-      section.require(!mesh.file.empty() && source.read_file, "Mesh file", mesh.file,
-                      "must be a mesh file");
+      const bool         is_cad = mesh.source == geometry::Source::cad;
+      section.require(!mesh.file.empty() && source.read_file, "File", mesh.file,
+                      is_cad ? "must be a CAD file" : "must be a mesh file");
       try
         {
           namespace fs = std::filesystem;
@@ -189,13 +192,25 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
                         .lexically_normal()
                         .string();
           mesh.imported =
-            mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
+            is_cad ? cad::import_cad(mesh, scene.dimension, scene.output_directory + "/cad",
+                                     body.name, source.communicator)
+                   : mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
         }
       catch (const InputError &error)
         {
           throw section.placed(error, "Mesh", to_text(mesh.source));
         }
     }
+}
+
+/// Return whether a mesh file of the body has elements with triangles.
+bool has_triangles(const Body &body)
+{
+  const auto any = [](const auto &mesh) {
+    return mesh && std::any_of(mesh->parts.begin(), mesh->parts.end(),
+                               [](const auto &part) { return part.has_triangles(); });
+  };
+  return body.mesh.imported && (any(body.mesh.imported->flat) || any(body.mesh.imported->solid));
 }
 
 std::string table_cell(std::string text)
@@ -246,6 +261,8 @@ Scene read_scene(const SceneSource &source)
   assign(statements, scene);
   complete(scene);
   read_meshes(source, origins, scene);
+  if (scene.degree == 0)
+    scene.degree = std::any_of(scene.bodies.begin(), scene.bodies.end(), has_triangles) ? 2 : 1;
   check(scene, origins);
   return scene;
 }

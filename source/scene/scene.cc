@@ -88,6 +88,12 @@ ConstraintName constraint_name(const Scene &scene, const std::string &name)
   return {name, {}, {}};
 }
 
+std::string unit_after_number(const Scene &scene, const std::string &response)
+{
+  const auto parameters = response_called(scene, response);
+  return Units(scene.units).after_number(response::unit_of<3>(parameters->quantity));
+}
+
 std::optional<response::ResponseParameters> response_called(const Scene       &scene,
                                                             const std::string &name)
 {

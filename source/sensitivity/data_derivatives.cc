@@ -70,8 +70,7 @@ void SubdomainDerivative<dim>::add_cells(const std::vector<Field> &velocities,
                                          qp::MultiVector          &ft) const
 {
   const auto &assembler = *solver.assemblers()[s];
-  const auto &element   = assembler.element();
-  const bool  loaded    = assembler.has_body_force(state.load_case);
+  const bool  loaded    = assembler.has_cell_loads(state.load_case);
   for (unsigned int i = 0; i < assembler.cells().size(); ++i)
     {
       std::vector<unsigned int> moving; // velocities that move the cell
@@ -92,17 +91,15 @@ void SubdomainDerivative<dim>::add_cells(const std::vector<Field> &velocities,
         assembler.add_cell_vector(i, -1., r[j], ft.column(moving[j]));
       if (!loaded)
         continue;
-      const auto b = assembler.body_force(i, state.load_case);
+      const auto force = [&](const Nodes<dim> &x, Nodes<dim> &f) {
+        f = assembler.cell_load(i, x, state.load_case);
+      };
       for (unsigned int j = 0; j < moving.size(); ++j)
-        {
-          Nodes<dim> change;
-          if (differences == nullptr)
-            element.body_force_derivative(X, V[j], b, change);
-          else
-            change = differences->load_derivative(
-              [&](const Nodes<dim> &x, Nodes<dim> &f) { element.body_force(x, b, f); }, X, V[j]);
-          assembler.add_cell_vector(i, 1., change, ft.column(moving[j]));
-        }
+        assembler.add_cell_vector(i, 1.,
+                                  differences == nullptr
+                                    ? assembler.cell_load_derivative(i, X, V[j], state.load_case)
+                                    : differences->load_derivative(force, X, V[j]),
+                                  ft.column(moving[j]));
     }
 }
 
@@ -232,7 +229,8 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim>  &solv
         }
       add(stencil.weights[k] / step, rows, result);
     }
-  // Tangential rows are known functions of the normal rows.
+  // Springs are differentiated exactly, and tangential rows are known functions of the normal rows.
+  result.springs      = solver.springs().row_derivatives(X, V);
   const auto &contact = solver.contact(state.load_case);
   const auto &surface = solver.surface();
   const auto  x       = surface.gather(X);
@@ -286,6 +284,9 @@ KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
       const auto derivative = row_derivatives<dim>(solver, state, velocities[j], parameters);
       const auto g          = gluing.right_hand_side_derivative(rows, derivative, state.load_case);
       std::copy_n(g.column(0), g.n_rows(), result.dual.column(j));
+      const auto D = gluing.compliance_derivatives(rows, derivative);
+      for (unsigned int i = 0; i < D.size(); ++i)
+        result.dual(i, j) += D[i] * state.dual.lambda(i);
       const auto changes = solver.resultants().traction_derivatives(state.positions, velocities[j]);
       for (unsigned int s = 0; s < state.u.size(); ++s)
         {

@@ -41,6 +41,26 @@ void add_rows(const state::StateSolver<dim>  &solver,
   surface.add_owned(total, gradient);
 }
 
+/// Add the same derivative for the springs, eta'(D lambda - B u) - lambda'B w, where D lambda = B u
+/// and D eta = B w.
+template <int dim>
+void add_springs(const state::StateSolver<dim>  &solver,
+                 const state::ContactState<dim> &state,
+                 const KktVectors               &adjoint,
+                 unsigned int                    j,
+                 Field<dim>                     &gradient)
+{
+  if (solver.springs().empty())
+    return;
+  const auto &gluing = solver.gluing(state.load_case);
+  solver.springs().add_energy_gradient(state.positions,
+                                       gluing.spring_forces(state.dual.lambda.column(0)),
+                                       state.displacement,
+                                       gluing.spring_forces(adjoint.dual.column(j)),
+                                       state::nodal_values(solver, adjoint.primal, j), -1.,
+                                       gradient);
+}
+
 /// Add the same derivative for the supports, where q . u = s and q . w = 0.
 template <int dim>
 void add_held(const state::StateSolver<dim>  &solver,
@@ -77,6 +97,7 @@ void add_residual_gradient(const state::StateSolver<dim>  &solver,
   state::add_stiffness_gradient(solver, state, w, -1., gradient);
   state::add_load_gradient(solver, state, w, 1., gradient);
   add_rows(solver, state, adjoint, j, gradient);
+  add_springs(solver, state, adjoint, j, gradient);
   add_held(solver, state, adjoint, j, gradient);
   if (adjoint.given.n_columns() > 0)
     add_bound_gradient(solver, state, adjoint.given, j, gradient);

@@ -122,7 +122,7 @@ bool TangentSystem::minimize_by(Krylov                     krylov,
   return true;
 }
 
-/// Return d - F mu = B K^+ (b - B' mu) - c. This form needs only one application of
+/// Return d - F mu = B K^+ (b - B' mu) - D mu - c. This form needs only one application of
 /// K^+, because d is not formed separately.
 qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_sides,
                                               const qp::MultiVector &mu) const
@@ -133,6 +133,7 @@ qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_
     unbalanced[s].add(-1., forces[s]);
   auto residual = feti.linearization().multiply_B(feti.linearization().apply_inverse(unbalanced));
   residual.add(-1., right_hand_sides.dual);
+  feti.linearization().add_compliance(-1., mu, residual);
   return residual;
 }
 

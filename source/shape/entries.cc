@@ -7,9 +7,9 @@
 namespace snug::shape {
 /// The direction has unit length, so that variables and bounds are lengths.
 template <int dim>
-dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
+dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters, const std::string &entry)
 {
-  const auto            &components = parameters.direction;
+  const auto            &components = entry == "Axis" ? parameters.axis : parameters.direction;
   dealii::Tensor<1, dim> direction;
   if (components.size() == dim)
     for (unsigned int d = 0; d < dim; ++d)
@@ -17,13 +17,15 @@ dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters)
   const double length = direction.norm();
   // The negated comparison rejects NaN as well.
   if (!(length > 0.) || !std::isfinite(length))
-    throw bad_entry(parameters.path("Direction"), to_text(components),
+    throw bad_entry(parameters.path(entry), to_text(components),
                     "must be empty or " + std::to_string(dim) + " numbers, not all zero");
   return direction / length;
 }
 
-SplineNet
-spline_net(const ShapeParameters &parameters, const unsigned int n_axes, const unsigned int degree)
+SplineNet spline_net(const ShapeParameters               &parameters,
+                     const unsigned int                   n_axes,
+                     const unsigned int                   degree,
+                     const std::vector<SplineAxis::Ends> &ends)
 {
   const auto &n       = parameters.control_points;
   const auto  require = [&](const bool good, const std::string &allowed) {
@@ -40,7 +42,21 @@ spline_net(const ShapeParameters &parameters, const unsigned int n_axes, const u
       require(degree == 0 || number == 1 || number > degree,
               "must be 1 or at least one more than 'Degree' each");
     }
-  return SplineNet(n, degree);
+  for (unsigned int axis = 0; axis < ends.size(); ++axis)
+    {
+      const auto &[closed, smooth] = ends[axis];
+      const bool is_half           = n[axis] > 1 && (smooth[0] || smooth[1]);
+      if (degree == 0 && n[axis] > 1 && (closed || (smooth[0] && smooth[1])))
+        throw bad_entry(parameters.path("Basis"), parameters.basis,
+                        "must be B-spline patch for a closed face and for a face between two "
+                        "symmetry planes, or have 1 control point there");
+      require(degree > 0 || !is_half || n[axis] <= 25,
+              "must be at most 25 across a symmetry plane");
+      if (degree == 1 && is_half)
+        throw bad_entry(parameters.path("Degree"), to_text(degree),
+                        "must be at least 2 for 'Smooth across symmetry'");
+    }
+  return SplineNet(n, degree, ends);
 }
 
 void require_bounds(const ShapeParameters &parameters)
@@ -94,6 +110,6 @@ std::vector<bool> wanted_bodies(const BodyNames &bodies, const ShapeParameters &
 
 template std::pair<dealii::Tensor<1, 2>, dealii::Tensor<1, 2>> box_of<2>(const ShapeParameters &);
 template std::pair<dealii::Tensor<1, 3>, dealii::Tensor<1, 3>> box_of<3>(const ShapeParameters &);
-template dealii::Tensor<1, 2> unit_direction(const ShapeParameters &);
-template dealii::Tensor<1, 3> unit_direction(const ShapeParameters &);
+template dealii::Tensor<1, 2> unit_direction(const ShapeParameters &, const std::string &);
+template dealii::Tensor<1, 3> unit_direction(const ShapeParameters &, const std::string &);
 } // namespace snug::shape

@@ -21,7 +21,7 @@ public:
 
   explicit LogicalFaces(const ShapedFace<dim> &face)
     : face(face)
-    , normal(face.boundary() / 2)
+    , normal(face.boundaries().front() / 2)
     , shape(face.mesh().degree())
     , positions(face.surface().gather(logical(face.mesh())))
     // With about as many bins as faces, a bin holds a few faces on meshes of any element size.
@@ -167,10 +167,10 @@ double
 blend_factor(const ShapedFace<dim> &face, const dealii::Point<dim> &logical, const double reach)
 {
   const auto        &geometry = face.mesh().geometry(face.body());
-  const unsigned int axis     = face.boundary() / 2;
+  const unsigned int axis     = face.boundaries().front() / 2;
   const double       fraction = geometry.box_fraction(logical)[axis];
   // Face 2d is at the lower end of axis d, face 2d + 1 at the upper one.
-  const double       depth = face.boundary() % 2 == 1 ? 1. - fraction : fraction;
+  const double       depth = face.boundaries().front() % 2 == 1 ? 1. - fraction : fraction;
   dealii::Point<dim> far;
   far[axis] = 1.;
   const double height =

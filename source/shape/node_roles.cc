@@ -100,7 +100,7 @@ std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const 
   dealii::Utilities::MPI::max(touches, mesh.communicator(), touches);
   std::vector<std::pair<unsigned int, unsigned int>> result;
   for (unsigned int boundary = 0; boundary < n; ++boundary)
-    if (boundary != face.boundary() && (touches[boundary] == 1) == touching)
+    if (!face.has(boundary) && (touches[boundary] == 1) == touching)
       result.emplace_back(face.body(), boundary);
   return result;
 }

@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/shape/entries.h>
+#include <snug/shape/limits.h>
 #include <snug/shape/links.h>
 #include <snug/shape/make_modes.h>
 #include <snug/shape/near_points.h>
@@ -94,6 +95,7 @@ Modes<dim> node_wise(const ShapedFace<dim> &face, const ShapeParameters &paramet
     for (const auto &weight : weights[i])
       rows[nodes[i]].emplace_back(weight.first, weight.second * d[nodes[i]]);
   modes.row          = [kept](unsigned int node) { return (*kept)[node]; };
+  modes.limits       = removal_limits(face, modes.n_variables, d, parameters);
   modes.row_at_point = [kept, nodes](unsigned int i) { return (*kept)[nodes[i]]; };
   return modes;
 }

@@ -5,6 +5,7 @@
 
 #include <boost/serialization/utility.hpp>
 
+#include <algorithm>
 #include <set>
 
 namespace snug::shape {
@@ -38,9 +39,15 @@ std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
   auto face = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
   // Modes and interior refer to the face, whose address stays the same when the pointer is moved.
   auto modes    = make(*face);
-  auto interior = parameters.interior == InteriorKind::linear_blending
-                    ? linear_blending(*face, parameters)
-                    : solved_interior(*face, parameters);
+  auto resolved = parameters;
+  if (resolved.interior == InteriorKind::automatic)
+    resolved.interior = face->boundaries().size() == 1 &&
+                            mesh.geometry(face->body()).is_box_side(face->boundaries().front())
+                          ? InteriorKind::linear_blending
+                          : InteriorKind::elasticity;
+  auto interior = resolved.interior == InteriorKind::linear_blending
+                    ? linear_blending(*face, resolved)
+                    : solved_interior(*face, resolved);
   return std::make_unique<Shape<dim>>(std::move(face), std::move(modes), std::move(interior));
 }
 
@@ -175,7 +182,13 @@ template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>> Shape<dim>::faces() const
 {
   if (face)
-    return {{face->body(), face->boundary()}};
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> result;
+      for (const unsigned int boundary : face->boundaries())
+        result.emplace_back(face->body(), boundary);
+      std::sort(result.begin(), result.end());
+      return result;
+    }
   // The row of a node that no variable moves is empty.
   std::vector<bool> moves;
   for (unsigned int node = 0; node < modes.n_nodes; ++node)
@@ -204,7 +217,10 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
     return names;
   };
   const Names face_entries  = {"Face", "Interior", "Reach", "Direction", "Symmetry", "Fixed"};
-  const Names patch_entries = with(face_entries, {"Control points"});
+  const Names coordinates   = {"Coordinates", "Axis", "Axis point", "Start angle"};
+  const Names patch_entries = with(with(face_entries, coordinates),
+                                   {"Control points", "Smooth across symmetry", "Only remove",
+                                    "Maximum slope", "Convex", "Minimum tool radius"});
   const Names box_entries   = {"Bodies",    "Box corner", "Box size", "Control points",
                                "Direction", "Symmetry",   "Fixed"};
   // The degree 0 of spline_net() stands for Bernstein polynomials.
@@ -230,7 +246,7 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
        return on_face(mesh, bodies, parameters,
                       [&](const auto &face) { return node_wise(face, parameters); });
      },
-     with(face_entries, {"Filter radius"})},
+     with(face_entries, {"Filter radius", "Only remove"})},
     {"Bezier box", "displacements [length] of Bézier control points of a free-form deformation box",
      [](const auto &mesh, const auto &bodies, const auto &parameters) {
        return std::make_unique<Shape<dim>>(mesh, spline_box(mesh, bodies, parameters, 0u));
@@ -243,10 +259,8 @@ const ChoiceTable<MakeShape<dim>> &shape_basis_table()
                                            spline_box(mesh, bodies, parameters, parameters.degree));
      },
      with(box_entries, {"Degree"})},
-    {"formula modes",
-     "amplitudes of vector fields on a face or on bodies",
-     of_formulas<dim>,
-     {"Modes", "Bodies", "Face", "Interior", "Reach"}}};
+    {"formula modes", "amplitudes of vector fields on a face or on bodies", of_formulas<dim>,
+     with({"Modes", "Bodies", "Face", "Interior", "Reach"}, coordinates)}};
   return table;
 }
 

@@ -9,8 +9,10 @@ namespace snug::shape {
 namespace {
 void declare_places(Entries &entries, ShapeParameters &shape)
 {
-  entries.add("Face", shape.face, allowed("body.boundary"),
-              "The face that patches, node-wise variables or formula modes shape.");
+  entries.add(
+    "Face", shape.face, allowed("body.boundary + body.boundary + ..."),
+    "The face that patches, node-wise variables or formula modes shape: one boundary, or a "
+    "chain of boundaries of a body that meet smoothly.");
   entries.add("Bodies", shape.bodies,
               "The bodies that boxes, or formula modes without a face, shape. An empty list means "
               "all bodies.");
@@ -23,12 +25,35 @@ void declare_places(Entries &entries, ShapeParameters &shape)
     "the box that cut a body are fixed. Units: length.");
 }
 
+void declare_coordinates(Entries &entries, ShapeParameters &shape)
+{
+  entries.add(
+    "Coordinates", shape.coordinates,
+    "The coordinates s and t along which the control points of a patch lie and which "
+    "formula modes of a face may use. Splines are periodic along arc lengths and angles of "
+    "closed faces.");
+  entries.add("Axis", shape.axis,
+              allowed("3 numbers separated by commas, not all zero, in 3D; otherwise left out"),
+              "The direction of the axis of angles, or of the extrusion of arc lengths. An empty "
+              "list means that the axis is found from the normals of the face.");
+  entries.add("Axis point", shape.axis_point, per_dimension(),
+              "The centre of angles, in 3D a point of the axis. Units: length. An empty list means "
+              "that the point is found from the normals of the face.");
+  entries.add("Start angle", shape.start_angle,
+              "The angle at which closed coordinates are zero, from the direction x (y for an axis "
+              "along x) in the right-handed sense. Units: degrees.");
+  entries.add(
+    "Smooth across symmetry", shape.smooth, allowed("a list of boundaries of the body"),
+    "The boundaries of the body that are symmetry planes across which the patch is smooth: "
+    "its slope is zero where the face meets them, as for a model of the whole body.");
+}
+
 void declare_modes(Entries &entries, ShapeParameters &shape)
 {
   entries.add(
     "Control points", shape.control_points,
-    "The numbers of control points along the edges of the face or box, in the order x, y, "
-    "z. Control points are numbered along the first edge first.");
+    "The numbers of control points along s and t of the face, or along x, y, z of the box. Control "
+    "points are numbered along the first of them first.");
   entries.add(
     "Degree", shape.degree,
     "The degree of B-splines, at least 1 and below the number of control points along each edge. "
@@ -45,7 +70,8 @@ void declare_modes(Entries &entries, ShapeParameters &shape)
   entries.add("Modes", access(shape.modes, ';'),
               allowed("a list 'FORMULA, FORMULA, FORMULA; ...' of vectors separated by semicolons"),
               "The vector fields of formula modes as formulas of x, y, z, one field per design "
-              "variable: '0, 0, x*(1-x); 0, 0, max(0,y)'.");
+              "variable: '0, 0, x*(1-x); 0, 0, max(0,y)'. On a face, formulas may contain the "
+              "coordinates s and t, the angle and the length of the face.");
 }
 
 void declare_links(Entries &entries, ShapeParameters &shape)
@@ -56,6 +82,23 @@ void declare_links(Entries &entries, ShapeParameters &shape)
   entries.add("Symmetry", shape.symmetry, allowed("a list 'axis: number, ...' of different axes"),
               "The mirror planes that tie control points or nodes to their images, as axis and "
               "coordinate: 'x: 0.5'. Units: length.");
+}
+
+void declare_limits(Entries &entries, ShapeParameters &shape)
+{
+  entries.add("Only remove", shape.only_remove,
+              "Whether the face moves into the body only, as by grinding. The bounds of the "
+              "variables are reduced accordingly.");
+  entries.add(
+    "Maximum slope", shape.maximum_slope, at_least(0., "must be positive, or 0 for no limit"),
+    "The maximum absolute derivative of the move along s and t with respect to the length. "
+    "A value of 0 means no limit.");
+  entries.add("Convex", shape.convex,
+              "Whether the moved face must be convex along s and t with several control points.");
+  entries.add(
+    "Minimum tool radius", shape.tool_radius, at_least(0., "must be positive, or 0 for no limit"),
+    "The minimum radius of concave curvature of the moved face along s and t, as that of a "
+    "grinding wheel. Units: length. A value of 0 means no limit.");
 }
 
 /// Return the entries that the basis of @p shape reads.
@@ -72,7 +115,8 @@ std::vector<std::string> entries_of(const ShapeParameters &shape)
   if (!has("Bodies") || !has("Face"))
     return entries;
   if (shape.face.empty())
-    for (const auto *name : {"Face", "Interior", "Reach"})
+    for (const auto *name :
+         {"Face", "Interior", "Reach", "Coordinates", "Axis", "Axis point", "Start angle"})
       drop(name);
   else
     drop("Bodies");
@@ -86,6 +130,8 @@ void make_parts(const ShapeParameters &shape)
 {
   if (!shape.direction.empty())
     unit_direction<dim>(shape);
+  if (!shape.axis.empty())
+    unit_direction<3>(shape, "Axis");
   if (shape.reads("Control points"))
     spline_net(shape, dim - (shape.reads("Face") ? 1 : 0),
                shape.reads("Degree") ? shape.degree : 0);
@@ -116,8 +162,10 @@ void ShapeParameters::declare(Entries &entries)
   entries.add("Basis", basis, choice(names(shape_basis_table<3>())),
               "The functions by which design variables move nodes.");
   declare_places(entries, *this);
+  declare_coordinates(entries, *this);
   declare_modes(entries, *this);
   declare_links(entries, *this);
+  declare_limits(entries, *this);
   entries.add("Interior", interior,
               "The motion of the nodes inside the body when its face is shaped. With Laplace and "
               "elasticity, nodes of faces adjacent to the shaped face slide in these faces, and "
@@ -147,6 +195,8 @@ void ShapeParameters::check(const SectionCheck &section) const
   auto read = entries_of(*this);
   read.insert(read.end(), {"Basis", "Bounds", "Initial"});
   section.require_read(*this, read, "must be left out for Basis = " + basis);
+  section.require(axis.empty() || section.dimension == 3, "Axis", to_text(axis),
+                  "must be left out for Dimension = 2");
   section.require(degree >= 1 && degree <= 10, "Degree", to_text(degree),
                   "must lie between 1 and 10");
   try
@@ -157,6 +207,8 @@ void ShapeParameters::check(const SectionCheck &section) const
     {
       throw section.placed(error, "Basis", basis);
     }
+  section.require(!convex || tool_radius == 0., "Minimum tool radius", to_text(tool_radius),
+                  "must be left out for Convex = true");
   section.require(filter_radius > 0. || !reads("Filter radius"), "Filter radius",
                   to_text(filter_radius), "must be positive");
   check_links(section, *this);

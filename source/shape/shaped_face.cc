@@ -1,6 +1,7 @@
 #include <snug/base/errors.h>
 #include <snug/faces/held_directions.h>
 #include <snug/faces/nodal_normals.h>
+#include <snug/geometry/face_list.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/shaped_face.h>
 
@@ -75,39 +76,56 @@ std::optional<Plane<dim>> plane_of(const mesh::BodyMesh<dim>                   &
 } // namespace
 
 template <int dim>
-std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
-                                                const BodyNames           &bodies,
-                                                const ShapeParameters     &parameters)
+std::vector<std::pair<unsigned int, unsigned int>> find_faces(const mesh::BodyMesh<dim> &mesh,
+                                                              const BodyNames           &bodies,
+                                                              const ShapeParameters     &parameters)
 {
   AssertDimension(bodies.names.size(), mesh.n_bodies());
-  const std::string &face  = parameters.face;
-  const auto         dot   = face.rfind('.');
-  const std::string  name  = face.substr(0, dot);
-  const auto         found = std::find(bodies.names.begin(), bodies.names.end(), name);
-  if (dot == std::string::npos || found == bodies.names.end())
-    throw bad_entry(parameters.path("Face"), face,
-                    "must be body.face with one of the bodies " + to_text(bodies.names));
-  const unsigned int body     = found - bodies.names.begin();
-  const auto        &known    = mesh.geometry(body).boundary_names();
-  const auto         boundary = std::find(known.begin(), known.end(), face.substr(dot + 1));
-  if (boundary == known.end())
-    throw bad_entry(parameters.path("Face"), face,
-                    "the faces of " + name + " are " + to_text(known));
-  return {body, boundary - known.begin()};
+  std::vector<std::pair<unsigned int, unsigned int>> result;
+  const auto require = [&](const bool good, const std::string &allowed) {
+    if (!good)
+      throw bad_entry(parameters.path("Face"), parameters.face, allowed);
+  };
+  for (const auto &face : geometry::face_list(parameters.face))
+    {
+      const auto        dot   = face.rfind('.');
+      const std::string name  = face.substr(0, dot);
+      const auto        found = std::find(bodies.names.begin(), bodies.names.end(), name);
+      require(dot != std::string::npos && found != bodies.names.end(),
+              "must be body.face with one of the bodies " + to_text(bodies.names));
+      const unsigned int body     = found - bodies.names.begin();
+      const auto        &known    = mesh.geometry(body).boundary_names();
+      const auto         boundary = std::find(known.begin(), known.end(), face.substr(dot + 1));
+      require(boundary != known.end(), "the faces of " + name + " are " + to_text(known));
+      result.emplace_back(body, boundary - known.begin());
+      require(body == result.front().first, "must have boundaries of one body");
+      require(std::count(result.begin(), result.end(), result.back()) == 1,
+              "must name each boundary once");
+    }
+  return result;
 }
 
 template <int dim>
 ShapedFace<dim>::ShapedFace(const mesh::BodyMesh<dim> &mesh,
                             const BodyNames           &bodies,
                             const ShapeParameters     &parameters)
-  : body_mesh(mesh), place(find_face(mesh, bodies, parameters)), nodes(mesh, {place})
+  : body_mesh(mesh), places(find_faces(mesh, bodies, parameters)), nodes(mesh, places)
 {
+  for (const auto &place : places)
+    own_boundaries.push_back(place.second);
   // All ranks throw or none, because surfaces are replicated.
   if (nodes.n_nodes() == 0)
     throw bad_entry(parameters.path("Face"), parameters.face, "the mesh has no such faces");
   measure();
+  surface_normals = unit_normals;
   find_border();
   keep_to_planes();
+}
+
+template <int dim>
+bool ShapedFace<dim>::has(const unsigned int boundary) const
+{
+  return std::find(own_boundaries.begin(), own_boundaries.end(), boundary) != own_boundaries.end();
 }
 
 /// Normals and areas are computed once in the reference geometry, because bases are linear in the
@@ -153,7 +171,7 @@ void ShapedFace<dim>::find_border()
 {
   std::vector<unsigned int> elsewhere; // global nodes of other boundaries of the body
   for (const auto &face : body_mesh.boundary_faces())
-    if (face.body == place.first && face.boundary != place.second)
+    if (face.body == body() && !has(face.boundary))
       for (const unsigned int node : face.nodes)
         elsewhere.push_back(body_mesh.global_node(node));
   std::sort(elsewhere.begin(), elsewhere.end());
@@ -172,11 +190,11 @@ template <int dim>
 void ShapedFace<dim>::keep_to_planes()
 {
   faces::HeldDirections<dim> held(nodes.n_points());
-  for (unsigned int b = 0; b < body_mesh.geometry(place.first).boundary_names().size(); ++b)
+  for (unsigned int b = 0; b < body_mesh.geometry(body()).boundary_names().size(); ++b)
     {
-      if (b == place.second)
+      if (has(b))
         continue;
-      const auto plane = plane_of<dim>(body_mesh, {place.first, b});
+      const auto plane = plane_of<dim>(body_mesh, {body(), b});
       if (!plane)
         continue;
       std::set<unsigned int> points; // points of the faces that touch the plane
@@ -239,13 +257,12 @@ typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &face,
     typename ShapedFace<dim>::Field(face.surface().n_points(), unit_direction<dim>(parameters));
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                \
-  template class ShapedFace<dim>;                                                            \
-  template typename ShapedFace<dim>::Field       face_directions(const ShapedFace<dim> &,    \
-                                                                 const ShapeParameters &);   \
-  template std::pair<unsigned int, unsigned int> find_face<dim>(const mesh::BodyMesh<dim> &, \
-                                                                const BodyNames &,           \
-                                                                const ShapeParameters &);
+#define SNUG_INSTANTIATE(dim)                                                        \
+  template class ShapedFace<dim>;                                                    \
+  template typename ShapedFace<dim>::Field face_directions(const ShapedFace<dim> &,  \
+                                                           const ShapeParameters &); \
+  template std::vector<std::pair<unsigned int, unsigned int>> find_faces<dim>(       \
+    const mesh::BodyMesh<dim> &, const BodyNames &, const ShapeParameters &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

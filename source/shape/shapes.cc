@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace snug::shape {
 namespace {
@@ -42,7 +43,10 @@ Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
       Links              links = make_links(*basis, one);
       add_variables(one, links.n_variables());
       parts.push_back({one.name, first, one.modes.empty(), std::move(basis), std::move(links)});
+      add_limits(parts.back(), one);
     }
+  for (auto &limit : all_limits)
+    limit.first.resize(lower.size(), 0.);
 }
 
 template <int dim>
@@ -94,6 +98,44 @@ void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigne
   lower.insert(lower.end(), n, parameters.bounds[0]);
   upper.insert(upper.end(), n, parameters.bounds[1]);
   initial.insert(initial.end(), start.begin(), start.end());
+}
+
+/// Fixed controls and controls that are tied to each other leave rows of zeros, and rows that occur
+/// several times, which optimizers do not need.
+template <int dim>
+void Shapes<dim>::add_limits(const Part &part, const ShapeParameters &parameters)
+{
+  std::set<std::pair<std::vector<double>, double>> known;
+  for (const auto &limit : part.basis->limits())
+    {
+      std::vector<double> row(lower.size(), 0.);
+      double              largest = 0.;
+      for (const auto &[control, weight] : limit.row)
+        {
+          const auto [variable, sign] = part.links.tie(control);
+          if (sign != 0.)
+            row[part.first + variable] += sign * weight;
+          largest = std::max(largest, std::abs(weight));
+        }
+      std::vector<unsigned int> moved;
+      for (unsigned int i = 0; i < row.size(); ++i)
+        if (std::abs(row[i]) > 1e-12 * largest)
+          moved.push_back(i);
+        else
+          row[i] = 0.;
+      if (moved.size() > 1 && known.insert({row, limit.bound}).second)
+        all_limits.emplace_back(row, limit.bound);
+      if (moved.size() != 1)
+        continue;
+      const unsigned int i     = moved.front();
+      double            &bound = row[i] > 0. ? upper[i] : lower[i];
+      bound =
+        row[i] > 0. ? std::min(bound, limit.bound / row[i]) : std::max(bound, limit.bound / row[i]);
+      if (!(lower[i] < upper[i] && initial[i] >= lower[i] && initial[i] <= upper[i]))
+        throw bad_entry(parameters.path("Bounds"), to_text(parameters.bounds),
+                        "and 'Initial' must agree with the limits of the shape, which leave " +
+                          to_text(std::vector<double>{lower[i], upper[i]}) + " for a variable");
+    }
 }
 
 template <int dim>

@@ -21,8 +21,14 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
                           const mesh::Subdomain           &subdomain,
                           const Model<dim>                &model,
                           const elasticity::Element<dim>  &element,
-                          const elasticity::FaceLoad<dim> &face_load)
-  : mesh(mesh), subdomain(subdomain), model(model), the_element(element), face_load(face_load)
+                          const elasticity::FaceLoad<dim> &face_load,
+                          const ConcentratedLoads<dim>    &concentrated)
+  : mesh(mesh)
+  , subdomain(subdomain)
+  , model(model)
+  , the_element(element)
+  , face_load(face_load)
+  , concentrated(concentrated)
 {
   for (const unsigned int cell : subdomain.cells)
     cell_reach.emplace_back(mesh, mesh.cells()[cell].nodes, subdomain.nodes);
@@ -123,12 +129,9 @@ std::vector<double> Assembler<dim>::load(const Field     &positions,
 {
   std::vector<double> f(n_dofs(), 0.);
   Nodes               r;
-  if (has_body_force(load_case))
+  if (has_cell_loads(load_case))
     for (unsigned int i = 0; i < cell_reach.size(); ++i)
-      {
-        the_element.body_force(cell_field(i, positions), body_force(i, load_case), r);
-        add_cell_vector(i, 1., r, f.data());
-      }
+      add_cell_vector(i, 1., cell_load(i, cell_field(i, positions), load_case), f.data());
   for (unsigned int i = 0; i < faces.size(); ++i)
     {
       face_load.force(face_field(i, positions), face_load_values(i, load_case, tractions), r);
@@ -281,7 +284,8 @@ elasticity::FaceLoadValues<dim> Assembler<dim>::face_load_values(unsigned int   
     }
   // The traction of a resultant depends on the positions of the whole loaded boundary, also on
   // other ranks, and comes from ResultantLoads.
-  values.linear = linear_traction(i, load_case, tractions);
+  values.linear       = linear_traction(i, load_case, tractions);
+  values.concentrated = concentrated.on_face(load_case, faces[i]);
   return values;
 }
 

@@ -95,13 +95,12 @@ void add_load_gradient(const state::StateSolver<dim>       &solver,
 {
   const auto add = [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
-    if (!assembler.has_body_force(state.load_case))
+    if (!assembler.has_cell_loads(state.load_case))
       return;
     const auto X = assembler.cell_field(i, state.positions);
     Nodes<dim> values(X.size());
-    assembler.element().add_body_force_gradient(X, assembler.body_force(i, state.load_case),
-                                                assembler.cell_values(i, w[s].column(0)), factor,
-                                                values);
+    assembler.add_cell_load_gradient(i, X, state.load_case,
+                                     assembler.cell_values(i, w[s].column(0)), factor, values);
     add_to_cell_nodes(solver, s, i, values, gradient);
   };
   for_each_cell<dim>(solver, "", add);

@@ -95,8 +95,9 @@ largest_product(const feti::LoadedProblem &feti, const qp::MultiVector &lambda, 
   if (rank == owner)
     unit(row) = 1.;
   // Do not call apply(), because F-mults count the work of solvers.
-  const auto column = feti.linearization().multiply_B(
+  auto column = feti.linearization().multiply_B(
     feti.linearization().apply_inverse(feti.linearization().multiply_Bt(unit)));
+  feti.linearization().add_compliance(1., unit, column);
   double product = rank == owner ? column(row) * std::abs(lambda(row)) : 0.;
   MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_MAX, comm);
   return product;
@@ -190,6 +191,8 @@ Certificate certify(const feti::LoadedProblem &feti,
 {
   auto w = feti.linearization().multiply_B(u);
   w.add(-1., feti.g());
+  // The length by which a spring is stretched is D lambda.
+  feti.linearization().add_compliance(-1., lambda, w);
   set_round_off_to_zero(feti, u, w);
   // maxima of continuity, penetration, negative and positive contact force, and F_ii |lambda_i|
   double largest[5] = {0., 0., 0., 0., 0.};

@@ -1,7 +1,10 @@
 #include <snug/state/contact_results.h>
 #include <snug/state/continuity.h>
 #include <snug/state/reactions.h>
+#include <snug/state/thermal.h>
 #include <snug/state/validity_checks.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,9 +51,9 @@ namespace {
 /// same fraction of the maximum F_ii lambda_i, the contact is weak.
 const double strong_part = 1e-6;
 
-/// Compute the energies. The energy is the dual value -(1/2 lambda'F lambda - lambda'd) - 1/2
-/// f'K^+f. With the residual d - F lambda this value is 1/2 lambda'(d + residual) - 1/2 f'K^+f and
-/// needs no F-mult.
+/// Compute the energies of bodies and springs. The energy is the dual value -(1/2 lambda'F lambda -
+/// lambda'd) - 1/2 f'K^+f. With the residual d - F lambda this value is 1/2 lambda'(d + residual) -
+/// 1/2 f'K^+f and needs no F-mult.
 template <int dim>
 void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
 {
@@ -71,12 +74,29 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
         }
     }
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
-    sums[3] += state.dual.lambda(i) * (feti.d()(i) + state.dual.residual(i));
+    {
+      const double lambda = state.dual.lambda(i);
+      sums[0] += feti.linearization().compliance(i) * lambda * lambda; // energy of springs
+      sums[3] += lambda * (feti.d()(i) + state.dual.residual(i));
+    }
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, solver.context().communicator());
   state.strain_energy = sums[0] / 2;
   state.compliance    = sums[1];
   // The error of this dual value is the square of the error of the residual.
   state.energy = sums[3] / 2 - sums[2] / 2;
+  if (!has_temperature(solver, state))
+    return;
+  // The elastic energy is that of the strain without the thermal strain.
+  double     work = 0.;
+  const auto f_T  = thermal_loads(solver, state);
+  for (unsigned int s = 0; s < f_T.size(); ++s)
+    for (unsigned int i = 0; i < f_T[s].n_rows(); ++i)
+      work += f_T[s](i) * state.u[s](i);
+  work                  = dealii::Utilities::MPI::sum(work, solver.context().communicator());
+  const double constant = thermal_energy(solver, state);
+  state.strain_energy += constant - work;
+  state.compliance -= work;
+  state.energy += constant;
 }
 
 /// Return the contacts of all ranks that slip, ascending. Collective.

@@ -34,7 +34,8 @@ void make_continuous(const feti::LoadedProblem &feti,
   if (g)
     jumps.add(-1., *g);
   for (unsigned int i = 0; i < jumps.n_rows(); ++i)
-    if (feti.linearization().contact_rows()[i])
+    // Springs have a length of their own.
+    if (feti.linearization().contact_rows()[i] || feti.linearization().compliance(i) > 0.)
       for (unsigned int j = 0; j < jumps.n_columns(); ++j)
         jumps(i, j) = 0.;
   const auto change = feti.linearization().multiply_Bt(jumps);

@@ -127,6 +127,8 @@ void Gluing<dim>::fill_B(unsigned int                s,
           const auto &c = now.row(entry.index).coefficients[entry.item];
           value *= rows.projected(c.first, c.second, now.held)[entry.dof % dim];
         }
+      else if (entry.source == Source::spring)
+        value *= now.springs[entry.index].coefficients[entry.item].second[entry.dof % dim];
       B.push_back({entry.local_row, entry.dof, value});
     }
 }
@@ -143,6 +145,8 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
       double value = 0.;
       if (entry.source == Source::held)
         value = derivative.held[entry.index].directions[entry.item][entry.dof % dim];
+      else if (entry.source == Source::spring)
+        value = derivative.springs[entry.index].coefficients[entry.item].second[entry.dof % dim];
       else if (entry.source == Source::contact)
         {
           const auto        &c      = now.row(entry.index).coefficients[entry.item];
@@ -291,6 +295,41 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const double            
     result.emplace_back(values.begin() + dim * h,
                         values.begin() + dim * h + now.held[h].directions.size());
   return result;
+}
+
+template <int dim>
+std::vector<double> Gluing<dim>::compliances(const RowCoefficients<dim> &now) const
+{
+  std::vector<double> D(now.springs.empty() ? 0 : rows.owned.size(), 0.);
+  for (unsigned int i = 0; i < D.size(); ++i)
+    if (const auto &row = rows.owned[i]; row.source == Source::spring)
+      D[i] = row.factor * row.factor / now.springs[row.index].stiffness;
+  return D;
+}
+
+template <int dim>
+std::vector<double>
+Gluing<dim>::compliance_derivatives(const RowCoefficients<dim> &now,
+                                    const RowCoefficients<dim> &derivative) const
+{
+  auto D = compliances(now);
+  for (unsigned int i = 0; i < D.size(); ++i)
+    if (const auto &row = rows.owned[i]; row.source == Source::spring)
+      D[i] *= -derivative.springs[row.index].stiffness / now.springs[row.index].stiffness;
+  return D;
+}
+
+template <int dim>
+std::vector<double> Gluing<dim>::spring_forces(const double *owned_lambda) const
+{
+  // All ranks know the springs, but only the owner of a row knows its scale.
+  std::vector<double> forces(rows.spring_scales.size(), 0.);
+  for (unsigned int i = 0; i < rows.owned.size(); ++i)
+    if (const auto &row = rows.owned[i]; row.source == Source::spring)
+      forces[row.index] = row.factor * owned_lambda[i];
+  MPI_Allreduce(MPI_IN_PLACE, forces.data(), narrow<int>(forces.size()), MPI_DOUBLE, MPI_SUM,
+                rows.layout->communicator());
+  return forces;
 }
 
 template class Gluing<2>;

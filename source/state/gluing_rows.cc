@@ -51,6 +51,39 @@ std::vector<unsigned int> contact_clusters(const unsigned int                   
   return root;
 }
 
+namespace {
+/// Return the rank that owns the rows of each node of contact surfaces and of springs that join
+/// several nodes, by global node. The first node of a cluster determines the rank. Nodes that a
+/// spring joins are in one cluster.
+template <int dim>
+std::map<unsigned int, unsigned int> ranks_of_nodes(const mesh::BodyMesh<dim>         &mesh,
+                                                    const mesh::Surface<dim>          &surface,
+                                                    const std::vector<unsigned int>   &clusters,
+                                                    const std::vector<SpringRow<dim>> &springs)
+{
+  std::map<unsigned int, unsigned int> root;
+  for (unsigned int i = 0; i < surface.n_nodes(); ++i)
+    root[surface.global_node(i)] = surface.global_node(clusters[i]);
+  const auto find = [&](unsigned int node) {
+    while (root.at(node) != node)
+      node = root.at(node);
+    return node;
+  };
+  for (const auto &row : springs)
+    for (unsigned int k = 1; k < row.coefficients.size(); ++k)
+      {
+        for (const auto &[node, c] : row.coefficients)
+          root.emplace(node, node);
+        const unsigned int a = find(row.coefficients[0].first), b = find(row.coefficients[k].first);
+        root[std::max(a, b)] = std::min(a, b);
+      }
+  std::map<unsigned int, unsigned int> ranks;
+  for (const auto &node : root)
+    ranks[node.first] = mesh.owner_of_global(find(node.first));
+  return ranks;
+}
+} // namespace
+
 template <int dim>
 GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
                             const mesh::Tearing                       &tearing,
@@ -67,12 +100,11 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
   scale_rows(reference, tangents);
   // The rank of the first node of a cluster owns all rows at the nodes of the cluster, so that
   // B D^-1 B' is block diagonal over ranks.
-  std::vector<unsigned int> ranks;
-  for (const unsigned int node : clusters)
-    ranks.push_back(mesh.owner_of_global(surface.global_node(node)));
+  const auto           ranks = ranks_of_nodes(mesh, surface, clusters, reference.springs);
   const auto           nodes = collect_copies(tearing, ranks);
   std::vector<Message> messages;
   number_node_rows(nodes, reference, messages);
+  number_spring_rows(nodes, reference, messages);
   number_contact_rows(nodes, reference, ranks, messages);
   send_entries(messages, tearing);
 }
@@ -138,14 +170,11 @@ void GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
 
 template <int dim>
 typename GluingRows<dim>::Copies
-GluingRows<dim>::collect_copies(const mesh::Tearing             &tearing,
-                                const std::vector<unsigned int> &rank_of_contact) const
+GluingRows<dim>::collect_copies(const mesh::Tearing                        &tearing,
+                                const std::map<unsigned int, unsigned int> &special) const
 {
   // Nodes of contact surfaces go to the rank of their cluster, and all other nodes go to their
   // owner.
-  std::map<unsigned int, unsigned int> special;
-  for (unsigned int i = 0; i < surface.n_nodes(); ++i)
-    special[surface.global_node(i)] = rank_of_contact[i];
   // pairs (node, subdomain) for the rank that owns the rows of the node
   std::map<unsigned int, std::vector<unsigned int>> out;
   for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
@@ -218,10 +247,10 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
 }
 
 template <int dim>
-void GluingRows<dim>::number_contact_rows(const Copies                    &nodes,
-                                          const RowCoefficients<dim>      &reference,
-                                          const std::vector<unsigned int> &rank_of_contact,
-                                          std::vector<Message>            &messages)
+void GluingRows<dim>::number_contact_rows(const Copies                               &nodes,
+                                          const RowCoefficients<dim>                 &reference,
+                                          const std::map<unsigned int, unsigned int> &rank_of_node,
+                                          std::vector<Message>                       &messages)
 {
   const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
   for (unsigned int i = 0; i < reference.n_rows(); ++i)
@@ -229,7 +258,8 @@ void GluingRows<dim>::number_contact_rows(const Copies                    &nodes
       const auto &coefficients = reference.row(i).coefficients;
       // A vanished row would be a zero row of B, so StateProblem checks its gap instead. All nodes
       // of a row are in one cluster, so the first node determines the owner.
-      if (scales[i] == 0. || rank_of_contact[coefficients.front().first] != my_rank)
+      if (scales[i] == 0. ||
+          rank_of_node.at(surface.global_node(coefficients.front().first)) != my_rank)
         continue;
       for (unsigned int k = 0; k < coefficients.size(); ++k)
         {
@@ -248,6 +278,44 @@ void GluingRows<dim>::number_contact_rows(const Copies                    &nodes
             }
         }
       owned.push_back({Source::contact, i, 0, 1. / scales[i]});
+    }
+}
+
+/// Number the rows of springs, which have an own unknown of the ground without copies. The rank
+/// with the copies of the nodes owns the row. A row is not projected off the held directions,
+/// because a spring need not be independent of the supports.
+template <int dim>
+void GluingRows<dim>::number_spring_rows(const Copies               &nodes,
+                                         const RowCoefficients<dim> &reference,
+                                         std::vector<Message>       &messages)
+{
+  for (unsigned int i = 0; i < reference.springs.size(); ++i)
+    {
+      const auto &coefficients = reference.springs[i].coefficients;
+      double      square       = 0.;
+      for (const auto &[node, c] : coefficients)
+        if (const auto found = nodes.find(node); found != nodes.end())
+          square += c.norm_square() / static_cast<double>(found->second.size());
+      spring_scales.push_back(std::sqrt(square) * reference.springs[i].scale);
+      if (nodes.count(coefficients.front().first) == 0)
+        continue;
+      for (unsigned int k = 0; k < coefficients.size(); ++k)
+        {
+          const auto &subdomains = nodes.at(coefficients[k].first);
+          for (const unsigned int subdomain : subdomains)
+            {
+              messages.push_back(
+                {subdomain, coefficients[k].first, narrow<unsigned int>(owned.size())});
+              Message &message = messages.back();
+              message.source   = Source::spring;
+              message.index    = i;
+              message.item     = k;
+              for (unsigned int c = 0; c < dim; ++c)
+                message.factor[c] =
+                  1. / (spring_scales[i] * static_cast<double>(subdomains.size()));
+            }
+        }
+      owned.push_back({Source::spring, i, 0, 1. / spring_scales[i]});
     }
 }
 

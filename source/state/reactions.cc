@@ -48,6 +48,16 @@ void add_supports(const StateSolver<dim>     &solver,
       forces[force.face].emplace_back(motion.point(force.position),
                                       resultant(solver, motion.vector(force.value)));
     }
+  for (const auto &force : solver.springs().forces(
+         state.positions,
+         solver.gluing(state.load_case).spring_forces(state.dual.lambda.column(0))))
+    {
+      if (forces.count(force.face) == 0)
+        names.push_back(force.face);
+      const auto motion = solver.motion(state.load_case, force.body);
+      forces[force.face].emplace_back(motion.point(force.position),
+                                      resultant(solver, motion.vector(force.value)));
+    }
   state.reactions.clear();
   for (const auto &name : names)
     {

@@ -66,7 +66,9 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   , context(context)
   , face_load(mesh.degree(), mesh.idealization())
   , resultants(mesh, face_load, model.load_cases)
+  , concentrated(mesh, model.load_cases)
   , surface(mesh, contact::boundaries_of(model.pairs))
+  , springs(mesh, model, face_load, positions)
   , factor_cache(model.feti.factorization, context)
 {
   for (const auto &body : model.bodies)
@@ -90,7 +92,8 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
     {
       const auto &subdomain = tearing.subdomains[s];
       assemblers.push_back(std::make_unique<Assembler<dim>>(mesh, subdomain, model,
-                                                            elements[subdomain.body], face_load));
+                                                            elements[subdomain.body], face_load,
+                                                            concentrated));
       systems[s].body        = subdomain.body;
       systems[s].K           = factor_cache.patterns.of(assemblers[s]->sparsity());
       systems[s].fixing_dofs = assemblers[s]->fixing_dofs(positions);
@@ -306,7 +309,8 @@ void StateProblem<dim>::linearize(PositionProblem<dim> &at)
   for (unsigned int s = 0; s < systems.size(); ++s)
     at.gluing->fill_B(s, at.rows, B[s]);
   at.linearization =
-    std::make_unique<const feti::Linearization>(*at.structure, systems, std::move(B), shared);
+    std::make_unique<const feti::Linearization>(*at.structure, systems, std::move(B), shared,
+                                                at.gluing->compliances(at.rows));
   shared = at.linearization->shared();
 }
 
@@ -364,7 +368,7 @@ RowCoefficients<dim> StateProblem<dim>::rows_of(const PositionProblem<dim> &at,
                                                 const Field                &x) const
 {
   const auto           on_surface = surface.gather(x);
-  RowCoefficients<dim> rows{at.contact->rows(on_surface), {}, held->frames(x)};
+  RowCoefficients<dim> rows{at.contact->rows(on_surface), {}, held->frames(x), springs.rows(x)};
   rows.tangents = at.contact->tangent_rows(on_surface, rows.contact);
   return rows;
 }

@@ -222,7 +222,8 @@ RowCoefficients<dim> StateSolver<dim>::row_derivatives(const Field       &positi
   const auto          &contact_here = contact(load_case);
   RowCoefficients<dim> result{contact_here.row_derivatives(x, v),
                               {},
-                              held().frame_derivatives(positions, velocity)};
+                              held().frame_derivatives(positions, velocity),
+                              springs().row_derivatives(positions, velocity)};
   if (contact_here.has_friction())
     result.tangents =
       contact_here.tangent_row_derivatives(x, v, contact_here.rows(x), result.contact);

@@ -7,6 +7,7 @@ solution ends with 3. On several ranks the line is printed once. Many runs on on
 a start of stability.many, which SNUG_MANY names, or that of build/."""
 
 import argparse
+import os
 import pathlib
 import re
 import resource
@@ -182,20 +183,51 @@ def check_mesh_files(runner):
     for title, mesh, entries, names in cases:
         path = runner.folder / (title.replace(" ", "-") + ".msh")
         path.write_text(mesh, encoding="utf-8")
-        scene = mesh_scene(runner, title, {"Mesh file": path.name, **entries})
+        scene = mesh_scene(runner, title, {"File": path.name, **entries})
         place = [] if "Shift" in entries else [scene.name]
         if len(entries) == 0:
             place.append(path.name)
         runner.expect_error_of(title, [scene], [*place, *names])
         runner.expect_error(title, ["--validate", scene], names, ranks=3)
-    scene = mesh_scene(runner, "a mesh without end", {"Mesh file": "/dev/zero"})
+    scene = mesh_scene(runner, "a mesh without end", {"File": "/dev/zero"})
     runner.expect_error_of("mesh of a device", [scene],
                            [scene.name, "/dev/zero", "must be a regular file"])
     runner.expect_error("parameters without end", ["/dev/zero"],
                         ["/dev/zero", "more than 16 MB"], ranks=3)
-    scene = mesh_scene(runner, "no such mesh", {"Mesh file": "nowhere.msh"})
+    scene = mesh_scene(runner, "no such mesh", {"File": "nowhere.msh"})
     runner.expect_error("missing mesh file", [scene],
                         [scene.name, "nowhere.msh"], ranks=3)
+
+
+def check_cad_files(runner):
+    """CAD files and entries that are wrong; a gmsh that is missing or fails."""
+    good = {"Mesh": "cad", "File": MESHES / "pins.step", "Solid": 2, "Boundary names": "",
+            "CAD faces": "bottom: 5; top: 6", "Element size": 1}
+    cases = [
+        ("no such solid", {"Solid": 3}, ["Solid", "3", "at most 2"]),
+        ("no choice of a solid", {"Solid": 0}, ["Solid", "contains 2"]),
+        ("element size of zero", {"Element size": 0}, ["Element size", "must be positive"]),
+        ("face in two boundaries", {"CAD faces": "bottom: 5 + 6; top: 6"},
+         ["CAD faces", "face 6", "'bottom'"]),
+        ("surface of a CAD face", {"Surface": "top: smooth"}, ["Surface", "for mesh files"]),
+        ("mesh file as CAD file", {"File": MESHES / "block.inp"}, ["block.inp", "'Mesh = file'"])]
+    for title, entries, names in cases:
+        scene = mesh_scene(runner, title, {**good, **entries})
+        runner.expect_error(title, ["--validate", scene], [scene.name, *names],
+                            ranks=3 if title == "no such solid" else 1)
+    scene = mesh_scene(runner, "no gmsh", good)
+    path = os.environ["PATH"]
+    for title, program, words in (("no gmsh", None, ["gmsh", "cannot be started"]),
+                                  ("failing gmsh", "#!/bin/sh\necho 'Error   : no room'; exit 1\n",
+                                   ["gmsh", "status 1", "no room"])):
+        folder = runner.folder / title.replace(" ", "-")
+        folder.mkdir()
+        if program:
+            (folder / "gmsh").write_text(program, encoding="utf-8")
+            (folder / "gmsh").chmod(0o755)
+        os.environ["PATH"] = str(folder)
+        runner.expect_error(title, ["--validate", scene], [scene.name, *words])
+        os.environ["PATH"] = path
 
 
 def mesh_scene(runner, title, entries):
@@ -331,6 +363,7 @@ def main():
             check_case(runner, case._replace(options=["--validate"]))
         check_files(runner, scene)
         check_mesh_files(runner)
+        check_cad_files(runner)
         floating = {f"Body {body}/Supports": "" for body in bodies}
         runner.expect_error("no supports at all",
                             [runner.write("floating", floating)], [], status=3)

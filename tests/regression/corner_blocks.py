@@ -13,7 +13,7 @@ set Bodies = block{bodies}
 set Obstacles = {obstacles}
 subsection Body block
   set Mesh = file
-  set Mesh file = block.inp
+  set File = block.inp
   set Young's modulus = 1000
   set Supports = {rollers}
   set Pressure = top: 100, right: 50
@@ -50,7 +50,7 @@ def check_corner(snug, dim, degree, method, master, ranks):
         more = {"body": f"""
 subsection Body ell
   set Mesh = file
-  set Mesh file = ell.inp
+  set File = ell.inp
   set Young's modulus = 1000
   set Supports = bottom: {"xyz"[:dim]}{", " + rollers if rollers else ""}
 end

@@ -94,7 +94,7 @@ READ_BACK = """
 set Bodies = punch, base
 subsection Body punch
   set Mesh = file
-  set Mesh file = {file}
+  set File = {file}
   set Mesh regions = punch
   set Boundary names = {punch}
   set Young's modulus = 2000
@@ -104,7 +104,7 @@ subsection Body punch
 end
 subsection Body base
   set Mesh = file
-  set Mesh file = {file}
+  set File = {file}
   set Mesh regions = base
   set Boundary names = {base}
   set Young's modulus = 1000

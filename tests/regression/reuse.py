@@ -32,7 +32,7 @@ subsection Body upper
 end
 subsection Body lower
   set Mesh            = file
-  set Mesh file       = block.msh
+  set File            = block.msh
   set Young's modulus = 1000
   set Supports        = bottom: xy
 end
@@ -122,16 +122,19 @@ def check_restarts(checks):
 
 def check_old_results(checks):
     output = checks.folder / "output"
-    ours = ["solution-0007.pvtu", "solution-0007.0000.vtu", "contact-0007.vtu", "contact-0007.csv",
-            "surface.stl", "warm-start.7.1"]
-    others = ["solution-0007.png", "contact.csv", "my-history.csv", "solution-7.pvtu.bak"]
+    ours = ["solution-0007.pvtu", "solution-0007.vtm", "solution-0007/00-punch.0000.vtu",
+            "contact-0008/01-a.b_c.0000.vtu", "contact-0007.csv", "surface.stl", "warm-start.7.1"]
+    others = ["solution-0007.png", "contact.csv", "my-history.csv", "solution-7.pvtu.bak",
+              "solution-0007/my-notes.txt", "solution-0007.d/00-punch.0000.vtu"]
     for name in ours + others:
+        (output / name).parent.mkdir(exist_ok=True)
         (output / name).write_text("old")
     done = checks.run("--set", "Task=state")
-    left = {path.name for path in output.iterdir()}
+    left = {str(path.relative_to(output)) for path in output.rglob("*")}
     checks.expect("results of earlier runs are removed",
                   done.returncode == 0 and not left.intersection(
-                      [*ours, "journal.txt", "history.csv", "solution-0001.pvtu"]), done)
+                      [*ours, "contact-0008", "journal.txt", "history.csv",
+                       "solution-0001.pvtu"]), done)
     checks.expect("what others left is not", left.issuperset(
         [*others, "solution-0000.pvtu", "summary.json", "parameters.prm"]), done)
 

@@ -32,7 +32,7 @@ set Bodies = punch{", foundation" if master == "body" else ""}
 set Obstacles = {"floor" if master == "obstacle" else ""}
 subsection Body punch
   set Mesh = file
-  set Mesh file = punch.inp
+  set File = punch.inp
   set Young's modulus = 1000
   set Supports = {rollers}
   set Pressure = top: {PRESSURE}
@@ -42,7 +42,7 @@ end
         text += f"""
 subsection Body foundation
   set Mesh = file
-  set Mesh file = foundation.inp
+  set File = foundation.inp
   set Young's modulus = 1000
   set Supports = {rollers + ", " if rollers else ""}bottom: {axis}
 end
@@ -194,7 +194,7 @@ set Bodies = punch, foundation
 set Responses = value
 subsection Body punch
   set Mesh = file
-  set Mesh file = punch.inp
+  set File = punch.inp
   set Young's modulus = 1000
   set Supports = left: x, right: x{front}
   set Pressure = top: 20

@@ -14,6 +14,38 @@ def wrong(title, path, value, names=(), others=()):
     return Case(title, entries, [path.split("/")[-1], value, *names], [])
 
 
+def patch_cases(shape, box, slave, master):
+    """Wrong values of the coordinates and limits of patches."""
+    angle = {**shape, "Shape/Coordinates": "angle"}
+    modes = {**shape, "Shape/Basis": "formula modes", "Shape/Control points": "",
+             "Shape/Direction": ""}
+    return [
+        wrong("chain of two bodies", "Shape/Face", f"{master} + {slave}", ["one body"], shape),
+        wrong("chain with a boundary twice", "Shape/Face", f"{master} + {master}", ["once"],
+              shape),
+        wrong("unknown coordinates", "Shape/Coordinates", "polar", ["arc length"], shape),
+        wrong("axis without a direction", "Shape/Axis", "0, 0, 0", ["not all zero"], angle),
+        wrong("flat face without an axis point", "Shape/Axis", "0, 0, 1", ["Axis point"], angle),
+        wrong("angle of a face that is not round", "Shape/Coordinates", "angle", ["revolution"],
+              shape),
+        wrong("unknown symmetry plane", "Shape/Smooth across symmetry", "roof", ["boundaries"],
+              shape),
+        wrong("symmetry plane off the face", "Shape/Smooth across symmetry", "bottom",
+              ["meets the face"], shape),
+        wrong("slope below zero", "Shape/Maximum slope", "-1", ["positive"], shape),
+        wrong("tool radius of a convex face", "Shape/Minimum tool radius", "1", ["left out"],
+              {**shape, "Shape/Convex": "true"}),
+        wrong("removal along the face", "Shape/Only remove", "true", ["Direction"],
+              {**shape, "Shape/Direction": "1, 0, 0"}),
+        wrong("slope of a box", "Shape/Maximum slope", "1", ["left out"], box),
+        wrong("curvature of straight lines", "Shape/Convex", "true", ["degree 2"], shape),
+        wrong("angle without an axis", "Shape/Coordinates", "projection", ["angle"],
+              {**modes, "Shape/Modes": "0, 0, angle"}),
+        wrong("coordinate of a face for bodies", "Shape/Modes", "0, 0, s",
+              ["formula of x, y, z"], {**modes, "Shape/Face": ""}),
+    ]
+
+
 def input_cases(body, slave, master):
     """Wrong values of entries. @p body and the faces are the scene's."""
     shape = {"Task": "optimize", "Optimization/Objective": "potential energy",
@@ -65,6 +97,7 @@ def input_cases(body, slave, master):
         wrong("displacement of a held component", own + "Displacement",
               "left: x = 0.1", ["Supports"]),
         wrong("force without components", own + "Force", "top: 1"),
+        *concentrated_cases(own),
         wrong("load case without a body", "Load case a/Pressure", "x.top: 1",
               others={"Load cases": "a"}),
         wrong("body twice", "Bodies", f"{body}, {body}"),
@@ -93,6 +126,8 @@ def input_cases(body, slave, master):
         wrong("pair of the same face", "Contact/Pairs", f"{slave}: {slave}"),
         wrong("model of another dimension", "Model", "axisymmetric", ["solid"]),
         wrong("thickness of a solid", "Thickness", "2", ["solid"]),
+        wrong("one unit", "Units", "mm", ["length, force"]),
+        wrong("equal units", "Units", "N, N", ["two different names"]),
         wrong("unknown formulation", own + "Formulation", "b-bar", ["B-bar"]),
         wrong("obstacle that is not there", "Contact/Pairs",
               f"{slave}: floor", ["body.boundary"]),
@@ -106,6 +141,10 @@ def input_cases(body, slave, master):
               ["formula of x,y,z"], friction),
         wrong("friction that drives", "Contact/Friction coefficient", "-0.1",
               ["0 or above"], friction),
+        wrong("negative deviation of a profile", "Output/Profile deviation", "-1e-6",
+              ["at least 0"]),
+        wrong("deviation of a profile that is no number", "Output/Profile deviation", "fine",
+              ["a number"]),
         wrong("unknown format of a mesh", "Output/Meshes", "msh, vtk", ["among msh, inp"]),
         wrong("friction in a quadratic program", "Output/Export QP", "true",
               ["friction", "quadratic program"], {**friction, "Contact/Friction coefficient": "0.1"}),
@@ -131,7 +170,7 @@ def input_cases(body, slave, master):
         wrong("disc in 3D", own + "Mesh", "disc", ["Dimension = 2"]),
         wrong("hole larger than the ring", own + "Inner radius", "2",
               others={own + "Mesh": "ring", own + "Supports": ""}),
-        wrong("no mesh file", own + "Mesh file", "",
+        wrong("no mesh file", own + "File", "",
               others={own + "Mesh": "file"}),
         wrong("flat box", own + "Box size", "1, 1, 0"),
         wrong("no tolerance", "Solver/Relative tolerance", "0"),
@@ -176,8 +215,48 @@ def input_cases(body, slave, master):
         wrong("filter without a radius", "Shape/Filter radius", "0",
               others={**shape, "Shape/Basis": "node-wise",
                       "Shape/Control points": ""}),
+        *patch_cases(shape, box, slave, master),
         wrong("mirror plane off the middle", "Shape/Symmetry", "x: 0.123",
               ["no image"], shape),
+    ]
+
+
+def concentrated_cases(own):
+    """Forces at points and along lines, springs and temperatures."""
+    force, line, springs = own + "Point force", own + "Line force", own + "Springs"
+    points, heat = own + "Point springs", own + "Temperature"
+    expands = {own + "Expansion": "1e-5"}
+    return [
+        wrong("point without a place", force, "top: 0 0 -1", ["x y z at x y z"]),
+        wrong("point of two components", force, "top: 0 0 -1 at 0 0", ["3 components"]),
+        wrong("point force of two components", force, "top: 0 1 at 0 0 2", ["3 components"]),
+        wrong("point force without a force", force, "top: at 0 0 2", ["missing"]),
+        wrong("two places of a force", force, "top: 0 0 1 at 0 0 2 at 1 1 2", ["twice"]),
+        wrong("force that is no number", force, "top: 0 0 x at 0 0 2", ["number"]),
+        wrong("point force that overflows", force, "top: 0 0 1e70 at 0 0 2", ["1e+60"]),
+        wrong("point force on no boundary", force, "lid: 0 0 1 at 0 0 2", ["lid"]),
+        wrong("line without its end", line, "top: 0 0 -1 from 0 0 2", ["from x y z to"]),
+        wrong("line of no length", line, "top: 0 0 -1 from 0 0 2 to 0 0 2", ["different ends"]),
+        wrong("line along no boundary", line, "top: 0 0 -1 along rim", ["rim"]),
+        wrong("line by two ways", line, "top: 0 0 -1 from 0 0 2 to 1 0 2 along left",
+              ["along boundary"]),
+        wrong("springs without a stiffness", springs, "top: z", ["components = formula"]),
+        wrong("springs along no axis", springs, "top: w = 1", ["components are"]),
+        wrong("springs on no boundary", springs, "lid: z = 1", ["lid"]),
+        wrong("springs by no formula", springs, "top: z = 1 +", ["Springs"]),
+        wrong("two springs in a direction", springs, "top: z = 1, top: xz = 2", ["one direction"]),
+        wrong("springs that push away", springs, "top: z = -1", ["must not be negative"]),
+        wrong("point springs without a place", points, "top: 0 0 1", ["x y z at x y z"]),
+        wrong("negative point spring", points, "top: 0 0 -1 at 0 0 2", ["must not be negative"]),
+        wrong("point spring of zero", points, "top: 0 0 0 at 0 0 2", ["must have a stiffness"]),
+        wrong("export of springs", "Output/Export QP", "true", ["springs"],
+              {springs: "top: z = 1"}),
+        wrong("temperature that is no formula", heat, "hot", others=expands),
+        wrong("temperature without expansion", heat, "100", ["Expansion"]),
+        wrong("temperature of no body", "Load case a/Temperature", "lid: 1",
+              ["no body"], {"Load cases": "a"}),
+        wrong("temperature of a body that does not expand", "Load case a/Temperature",
+              own[5:-1] + ": 1", ["Expansion"], {"Load cases": "a"}),
     ]
 
 
@@ -188,6 +267,14 @@ def setup_cases(body, slave):
         wrong("control point that is not there", "Shape/Fixed", "7"),
         wrong("designs of another size", "Shape/Initial", "0, 0",
               ["6 numbers"]),
+        wrong("point beside its boundary", own + "Point force", "top: 0 0 -1 at 0.5 0.5 9",
+              ["must be on the boundary"]),
+        wrong("line beyond its boundary", own + "Line force",
+              "top: 0 0 -1 from 0.5 0.5 2 to 0.5 9 2", ["must be on the boundary"]),
+        wrong("boundaries without a common edge", own + "Line force", "top: 0 0 -1 along bottom",
+              ["no common edge"]),
+        wrong("point spring beside its boundary", own + "Point springs", "top: 0 0 1 at 7 7 7",
+              ["must be on the boundary"]),
         Case("pair with nothing opposite", {own + "Shift": "3, 0, 0"},
              ["opposite", slave], []),
         Case("faces paired through their body",
@@ -213,6 +300,9 @@ def partial_cases(body):
              [own + "Pressure", "1e200*x"], []),
         Case("body force not finite", {own + "Body force": "0, 0, sqrt(0.5-x)"},
              [own + "Body force", "sqrt(0.5-x)"], []),
+        Case("temperature not finite",
+             {own + "Expansion": "1e-5", own + "Temperature": "sqrt(0.5-x)"},
+             [own + "Temperature", "sqrt(0.5-x)"], []),
         Case("refined position not finite",
              {own + "Warp": "0; 0; 0*sqrt(abs(x-0.125)-1e-9)",
               own + "Refinements": "1"},

@@ -34,7 +34,7 @@ def off_the_ellipse(result, pitch, p0, a):
 def gears(degree=1, moment=MOMENT, scale=1, swapped=False, refinements=0, **settings):
     """The largest pressure is within 2 % of Hertz; the tooth force is as near as the splines of
     the flanks are to involutes."""
-    around = {"Mesh": "file", "Mesh file": "mesh.msh", "Young's modulus": E, "Scale": scale,
+    around = {"Mesh": "file", "File": "mesh.msh", "Young's modulus": E, "Scale": scale,
               "Refinements": refinements}
     bodies = {name: {"Mesh regions": name, **around} for name in ("pinion", "wheel")}
     turned, held = ("wheel", "pinion") if swapped else ("pinion", "wheel")

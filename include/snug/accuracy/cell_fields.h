@@ -15,8 +15,9 @@ struct LoadedDisplacement
   std::vector<double> pressures;
   /// friction tractions of the contact rows on the slave sides, in space [force / length^2]; empty:
   /// none
-  std::vector<dealii::Tensor<1, dim>> shears = {};
-  double                              loads  = 1.; ///< factor of the loads of the load case
+  std::vector<dealii::Tensor<1, dim>> shears  = {};
+  double                              loads   = 1.; ///< factor of the loads of the load case
+  double                              thermal = 1.; ///< factor of its thermal strains
   /// further traction and stress that act; null: none
   const response::FieldDerivative<dim> *more = nullptr;
 };
@@ -38,10 +39,10 @@ public:
   Nodes positions(unsigned int cell) const { return at_cell(cell, local_positions); }
   const elasticity::Material &material(unsigned int cell) const;
 
-  /// Return the stresses of the displacement @p u at points of a cell, with the element's
-  /// formulation.
+  /// Return the stresses of the displacement @p u and of @p thermal times the thermal strains of
+  /// the load case at points of a cell, with the element's formulation.
   std::vector<dealii::SymmetricTensor<2, 3>>
-  stresses(unsigned int cell, const Field &u, const Shapes &at) const;
+  stresses(unsigned int cell, const Field &u, double thermal, const Shapes &at) const;
 
   /// Return the stresses of the displacement minus the further stress that acts: the flux that is
   /// continuous between cells.
@@ -51,8 +52,9 @@ public:
   const Field local_positions, displacement;
 
 private:
-  const state::StateSolver<dim>        &solver;
-  std::vector<elasticity::Element<dim>> elements; ///< per body
+  const state::StateSolver<dim>            &solver;
+  const std::vector<state::BodyLoads<dim>> &loads;    ///< per body
+  std::vector<elasticity::Element<dim>>     elements; ///< per body
 };
 
 /// Return sigma area.

@@ -23,6 +23,7 @@ struct CellErrors
  *   t = (sigma_h + sigma_h') n / 2   between cells, with sigma_h' of the neighbor,
  *   t = traction of the loads        on the boundary,
  *   t = -p n                         on both sides of contact (ContactPressure),
+ *   t = -k (q . u) q                 of springs,
  * and with held directions at supports.
  */
 template <int dim>
@@ -70,6 +71,7 @@ private:
   Nodes body_forces(unsigned int cell, const Loaded &of) const;
   void  add_interior_faces(const Loaded &of, std::vector<Residual> &r) const;
   void  add_loads(const Loaded &of, std::vector<Residual> &r) const;
+  void  add_springs(const Loaded &of, std::vector<Residual> &r) const;
   void  add_contact(const Loaded &of, std::vector<Residual> &r) const;
   std::vector<Residual> on_faces(const Loaded &of) const;
 };

@@ -25,7 +25,9 @@ struct DesignValues
 {
   double              objective = 0.;
   std::vector<double> constraints;    ///< c(x), then the terms of maxima
+  std::vector<double> constrained;    ///< values of the responses that the constraints limit
   double              violation = 0.; ///< maximum over constraints, relative to the limit
+  std::string         violated;       ///< name of the constraint with the maximum violation
 };
 
 /**
@@ -71,6 +73,11 @@ public:
   /// Return the objective and the constraints of @p states. Collective.
   DesignValues values(const States &states) const;
 
+  /// Return the maximum violation of a constraint, relative to its limit, and the name of the
+  /// constraint as in the scene, such as "volume <= initial". The last of @p values are those of
+  /// the responses that the constraints limit. {0, ""} if the values satisfy all constraints.
+  std::pair<double, std::string> most_violated(const std::vector<double> &values) const;
+
   /// Run a new contact search at @p design, after which earlier states are invalid.
   /// Collective.
   void pair(const Design &design);
@@ -99,6 +106,7 @@ private:
   /// The objective or a constraint: a response, combined of its values in load cases.
   struct Quantity
   {
+    std::string                                    name = {}; ///< of a constraint in the scene
     std::shared_ptr<const response::Response<dim>> response;
     std::vector<unsigned int>                      load_cases;
     std::vector<double>                            weights; ///< of the load cases

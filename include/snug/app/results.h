@@ -103,6 +103,10 @@ private:
   void                   count_rows();
   void                   export_first_qp(const States &states);
   std::vector<MeshError> estimate(const States &states);
+  /// Write the shaped faces as a STEP file. Collective.
+  void export_profile(const std::vector<double> &design);
+  /// Print the faces of the STEP file in the summary, and warnings after them.
+  void report_profile(std::vector<std::string> lines);
   /// Write the 'Meshes' of the scene at the positions of @p state. Collective.
   void export_meshes(const state::ContactState<dim> &state);
 

@@ -3,6 +3,7 @@
 
 #include <snug/app/evaluator.h>
 #include <snug/app/results.h>
+#include <snug/app/search_progress.h>
 #include <snug/io/history.h>
 #include <snug/optimization/journal.h>
 
@@ -18,9 +19,10 @@ struct SearchRecord
                const scene::Scene      &scene,
                bool                     restart);
 
-  Results<dim> &results;
-  double        first_violation = 0.; ///< maximum violation of constraints at the first design
-  io::History   history;
+  Results<dim>  &results;
+  double         first_violation = 0.; ///< maximum violation of constraints at the first design
+  io::History    history;
+  SearchProgress progress;
   optimization::Journal journal;
 };
 
@@ -66,7 +68,7 @@ public:
 private:
   using Result = optimization::OptimizationResult;
 
-  void   report(const optimization::Iteration &iteration, unsigned int before);
+  void   report(const optimization::Iteration &iteration, const Result &before);
   void   report_first(const optimization::Iteration &iteration);
   Result run_with_pairing(const Design &start, const Result &before, double tolerance);
   bool   update_pairing(const Result &result);

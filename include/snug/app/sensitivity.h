@@ -20,6 +20,10 @@ public:
   /// Collective. @throws SolveError.
   Sensitivity(ShapeProblem<dim> &problem, Results<dim> &results, const States &states);
 
+  /// Write gradients.csv: the gradients of the objective and of all responses of each load case.
+  /// Collective.
+  void write_all(const std::string &path) const;
+
   /// For the summary.
   io::Summary::Gradient gradient;
   /// Shape gradient by the requested method, if requested: this rank's share.

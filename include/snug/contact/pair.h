@@ -82,9 +82,6 @@ struct PairParameters
   void check(const SectionCheck &section) const;
 };
 
-/// Return the faces that a side of a pair names: "body.boundary + body.boundary" has two.
-std::vector<std::string> faces_of_side(const std::string &side);
-
 /// Entries of `subsection Contact`.
 struct ContactParameters
 {

@@ -29,7 +29,7 @@ bool is_deck(const std::string &text);
  *
  * All other keywords, and lines that have no counterpart, are listed in left_out.
  *
- * @param[in] file Name of the deck, to which the entries 'Mesh file' refer.
+ * @param[in] file Name of the deck, to which the entries 'File' refer.
  * @throws InputError with the line if the mesh cannot be read, or if cells have no isotropic
  *   material.
  */

@@ -4,6 +4,7 @@
 #include <snug/elasticity/cell_point.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/elasticity/material.h>
+#include <snug/elasticity/thermal_strain.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -38,6 +39,10 @@ namespace snug::elasticity {
  *   int (2 mu dev e_u : dev e_w + p_u div w + p_w div u
  *        - p_u p_w / kappa) dV
  * w'Ku has the derivative of this integral at fixed p_u and p_w.
+ *
+ * A thermal strain e I with e = alpha dT, fixed to the material, causes the stress -beta e I of the
+ * undeformed cell, beta = 3 kappa, and the load f_a = int beta e g_a dV. In a sheet beta = E / (1 -
+ * nu) without a stress across it. B-bar projects e like div u.
  *
  * Nothing is checked here: a cell with quality() <= 0 gives meaningless or,
  * where det J = 0, infinite numbers.
@@ -95,6 +100,39 @@ public:
                                double       factor,
                                Nodes       &gradient) const;
 
+  /// Compute the load f of a thermal strain, f . w = int beta e div w dV.
+  void thermal_force(const Nodes              &X,
+                     const Material           &material,
+                     const ThermalStrain<dim> &thermal,
+                     Nodes                    &f) const;
+
+  /// Compute f = derivative of thermal_force() along V, exact.
+  void thermal_force_derivative(const Nodes              &X,
+                                const Nodes              &V,
+                                const Material           &material,
+                                const ThermalStrain<dim> &thermal,
+                                Nodes                    &f) const;
+
+  /// Compute gradient_a += factor * d/dX_a (f(X) . w) of the load of a thermal strain.
+  void add_thermal_force_gradient(const Nodes              &X,
+                                  const Material           &material,
+                                  const ThermalStrain<dim> &thermal,
+                                  const Nodes              &w,
+                                  double                    factor,
+                                  Nodes                    &gradient) const;
+
+  /// Return the energy of the undeformed cell, 1/2 int e I : C e I dV, which the elastic energy
+  /// contains besides 1/2 u'Ku - f . u.
+  double
+  thermal_energy(const Nodes &X, const Material &material, const ThermalStrain<dim> &thermal) const;
+
+  /// Compute gradient_a += factor * d thermal_energy() / dX_a.
+  void add_thermal_energy_gradient(const Nodes              &X,
+                                   const Material           &material,
+                                   const ThermalStrain<dim> &thermal,
+                                   double                    factor,
+                                   Nodes                    &gradient) const;
+
   /// Return int dV [length^3], signed.
   double volume(const Nodes &X) const;
 
@@ -107,7 +145,8 @@ public:
   stresses(const Nodes                                 &X,
            const Material                              &material,
            const Nodes                                 &u,
-           const std::vector<mesh::LagrangePoint<dim>> &shapes) const;
+           const std::vector<mesh::LagrangePoint<dim>> &shapes,
+           const ThermalStrain<dim>                    &thermal = {}) const;
 
   /**
    * Return the quality of the cell: the minimum det J over Gauss points and nodes, divided by the
@@ -154,6 +193,16 @@ private:
   /// Replace the values of div u at the points of a cell by their values in the formulation.
   void take_dilatation(const std::vector<CellPoint<dim>> &points,
                        std::vector<double>               &values) const;
+
+  /// Return the thermal strains at the points of a cell in the formulation.
+  std::vector<double> thermal_strains(const std::vector<CellPoint<dim>> &points,
+                                      const ThermalStrain<dim>          &thermal) const;
+
+  /// Subtract the thermal stresses from the @p stresses at the last ones of the points of a cell.
+  void subtract_thermal(const std::vector<CellPoint<dim>>          &points,
+                        const Material                             &material,
+                        const ThermalStrain<dim>                   &thermal,
+                        std::vector<dealii::SymmetricTensor<2, 3>> &stresses) const;
 
   std::vector<PointState> point_states(const std::vector<CellPoint<dim>> &points,
                                        const Material                    &material,

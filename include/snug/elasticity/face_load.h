@@ -5,9 +5,31 @@
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/lagrange.h>
 
+#include <optional>
 #include <vector>
 
 namespace snug::elasticity {
+/// Dead force F at a point of a face, or a force per length q along a short piece of a line on the
+/// face. The force F, or q times the length of the piece, acts at the point.
+template <int dim>
+struct ConcentratedForce
+{
+  mesh::LagrangePoint<dim - 1> shape; ///< shape functions of the face at the point
+  dealii::Tensor<1, dim>       force; ///< F [force] or q [force / length]
+  /// direction xi' of the line in the coordinates of the face times the piece of its parameter: the
+  /// piece is the vector sum_a (xi' . grad N_a) X_a. Empty for a force at a point.
+  std::optional<dealii::Tensor<1, dim - 1>> piece = {};
+
+  /// Return the vector of the piece for node positions X, or its derivative for velocities X.
+  dealii::Tensor<1, dim> vector(const std::vector<dealii::Tensor<1, dim>> &X) const;
+
+  /// Return the force at the point for node positions X [force].
+  dealii::Tensor<1, dim> total(const std::vector<dealii::Tensor<1, dim>> &X) const
+  {
+    return piece ? vector(X).norm() * force : force;
+  }
+};
+
 /// Dead loads of one face: pressure and traction at its Gauss points [force / length^2]; an empty
 /// list stands for zero.
 template <int dim>
@@ -16,6 +38,7 @@ struct FaceLoadValues
   std::vector<double>                 pressure;
   std::vector<dealii::Tensor<1, dim>> traction;
   LinearTraction<dim>                 linear; ///< traction of a resultant
+  std::vector<ConcentratedForce<dim>> concentrated = {};
 };
 
 /// Data that determine the work f . u of a resultant besides its traction: U = int u dA and
@@ -39,7 +62,8 @@ struct ResultantWork
  * (t_y, -t_x) in 2D, and the weight w of the idealization. Derivatives
  * along node velocities V: m' = V_,1 x t_2 + t_1 x V_,2,
  * dA' = (w n.m' + w' |m|) d xi and w' = dw/dx . V. Pressures and tractions at Gauss points are
- * fixed to the material and do not change.
+ * fixed to the material and do not change. A concentrated force adds N_a F, or N_a q |s| with the
+ * vector s of a piece of a line, whose derivative is N_a q s.s' / |s|.
  *
  * X: positions, V: velocities of the positions, u: displacements, n
  * vectors each. (p+1)^(dim-1) Gauss points. |m| > 0 is assumed.
@@ -67,7 +91,7 @@ public:
                         const LinearTraction<dim> &linear,
                         Nodes                     &f) const;
 
-  /// Compute gradient_a += factor * d/dX_a (f(X) . u) for pressure and traction.
+  /// Compute gradient_a += factor * d/dX_a (f(X) . u) for all loads but the linear traction.
   void add_force_gradient(const Nodes               &X,
                           const FaceLoadValues<dim> &load,
                           const Nodes               &u,

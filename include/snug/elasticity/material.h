@@ -13,6 +13,7 @@ struct Material
   double youngs_modulus = 1.;  ///< [force / length^2], > 0
   double poissons_ratio = 0.3; ///< in (-1, 0.5)
   double density        = 0.;  ///< [mass / length^3], for gravity
+  double expansion      = 0.;  ///< thermal strain per temperature [1 / temperature]
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;

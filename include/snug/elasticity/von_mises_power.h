@@ -3,6 +3,7 @@
 
 #include <snug/elasticity/cell_point.h>
 #include <snug/elasticity/material.h>
+#include <snug/elasticity/thermal_strain.h>
 
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace snug::elasticity {
  * Element, at the same Gauss points:
  * S = int (sigma_vM / scale)^p dV [length^3],
  * sigma_vM = sqrt(3/2 s:s), s = 2 mu dev e.
- * All formulations share s, because it does not depend on the dilatation.
+ * All formulations share s, because it does not depend on the dilatation. A thermal strain, which
+ * is subtracted from e, changes s in plane stress alone, through the strain across the sheet.
  *
  * Along du and the velocities V, with the flux
  * H = p (sigma_vM / scale)^(p-2) 3/2 (2 mu s) / scale^2 and grad u =: g,
@@ -33,22 +35,31 @@ public:
                 double                    scale);
 
   /// Return the maximum sigma_vM at the Gauss points.
-  double largest(const Nodes &X, const Material &material, const Nodes &u) const;
+  double largest(const Nodes              &X,
+                 const Material           &material,
+                 const Nodes              &u,
+                 const ThermalStrain<dim> &thermal = {}) const;
 
   /// Return S.
-  double value(const Nodes &X, const Material &material, const Nodes &u) const;
+  double value(const Nodes              &X,
+               const Material           &material,
+               const Nodes              &u,
+               const ThermalStrain<dim> &thermal = {}) const;
 
   /// Add factor * dS/du_a and factor * dS/dX_a to the gradients.
-  void add_gradients(const Nodes    &X,
-                     const Material &material,
-                     const Nodes    &u,
-                     double          factor,
-                     Nodes          &by_u,
-                     Nodes          &by_X) const;
+  void add_gradients(const Nodes              &X,
+                     const Material           &material,
+                     const Nodes              &u,
+                     double                    factor,
+                     Nodes                    &by_u,
+                     Nodes                    &by_X,
+                     const ThermalStrain<dim> &thermal = {}) const;
 
 private:
-  dealii::SymmetricTensor<2, 3>
-  deviator_at(const CellPoint<dim> &point, const Material &material, const Nodes &u) const;
+  dealii::SymmetricTensor<2, 3> deviator_at(const CellPoint<dim>     &point,
+                                            const Material           &material,
+                                            const Nodes              &u,
+                                            const ThermalStrain<dim> &thermal) const;
 
   const mesh::Idealization                    idealization;
   const double                                p, scale;

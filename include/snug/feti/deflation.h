@@ -17,11 +17,13 @@ struct DeflationStructure
 {
   /// Take the row forces @p the_raw of those subdomains of this rank that have soft modes, in
   /// ascending order of the subdomains. @p the_coarse must outlive this object. E is factorized by
-  /// @p coarse_ranks ranks, see coarse_group(). Collective.
+  /// @p coarse_ranks ranks, see coarse_group(). The vectors are zero on owned rows that are not in
+  /// @p rows. Collective.
   DeflationStructure(const CoarseStructure &the_coarse,
                      unsigned int           n_subdomains,
                      std::vector<RowForces> the_raw,
-                     unsigned int           coarse_ranks);
+                     unsigned int           coarse_ranks,
+                     const qp::RowSet      &rows = {});
 
   /// The part of a subdomain t in the vectors whose neighbourhood contains t.
   struct Part
@@ -41,7 +43,7 @@ struct DeflationStructure
   FactorPool                factors{MatrixKind::soft_modes}; ///< factorizations of E
 
 private:
-  void count_subdomains();
+  void count_subdomains(const qp::RowSet &rows);
   void find_parts();
   void build_pattern();
 };

@@ -72,13 +72,15 @@ private:
 
 /// Return the columns of the jump operator for the @p n_subdomains subdomains of this rank. Their
 /// global ids begin at @p first. @p entries are B and 1/D as in RowGram, @p stride numbers apart.
+/// The owned rows in @p rows are the equality rows; @p gram couples them to no other equality rows.
 /// Collective.
 std::vector<JumpColumns> jump_operator(const RowLayout           &layout,
                                        const RowGram             &gram,
                                        const std::vector<double> &entries,
                                        unsigned int               stride,
                                        unsigned int               first,
-                                       unsigned int               n_subdomains);
+                                       unsigned int               n_subdomains,
+                                       const qp::RowSet          &rows);
 } // namespace snug::feti
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <snug/feti/deflation.h>
 #include <snug/feti/dual_structure.h>
+#include <snug/feti/jump_operator.h>
 
 #include <memory>
 
@@ -22,9 +23,11 @@ struct SharedOperators
 /**
  * This class holds the operators of Total FETI at one geometry, for bodies torn into floating
  * subdomains,
- * @f[ F = B K^+ B^T,\quad G = R^T B^T, @f]
- * the preconditioner and the soft modes. All loads of the geometry share it. Subdomains with equal
- * matrices share one factorization.
+ * @f[ F = B K^+ B^T + D,\quad G = R^T B^T, @f]
+ * the preconditioner and the soft modes. D is the diagonal matrix of the compliances of springs,
+ * zero on other rows. A spring acts like a further subdomain with one unknown, the stiffness 1/D
+ * and no rigid motion, which is glued to the body by its row. All loads of the geometry share it.
+ * Subdomains with equal matrices share one factorization.
  *
  * Source: Dostál, Horák, Kučera, Commun. Numer. Meth. Engng 22 (2006).
  */
@@ -37,12 +40,14 @@ public:
    * @param[in] B of the subdomains of this rank.
    * @param[in] shared operators of a linearization with equal K and equality rows. Soft modes are
    *   found with these matrices if they are null and DualStructure::seeks_soft_modes().
+   * @param[in] D of the owned rows; empty: no springs.
    * @throws SolveError where a matrix is not positive definite.
    */
   Linearization(const DualStructure                &structure,
                 const std::vector<SubdomainSystem> &systems,
                 ConstraintRows                      B,
-                SharedOperators                     shared);
+                SharedOperators                     shared,
+                std::vector<double>                 D = {});
 
   RunContext                         &context() const { return structure.cache.context; }
   const RowLayout                    &layout() const { return structure.layout; }
@@ -58,7 +63,13 @@ public:
 
   const CoarseSpace &coarse() const { return *coarse_space; }
 
-  /// Return (B D^{-1} B')_ii with D = diag K: the compliance of the unknowns of row i with their
+  /// Return D of an owned row, which is zero except for springs.
+  double compliance(unsigned int row) const { return D.empty() ? 0. : D[row]; }
+
+  /// Add factor * D x to y, on the owned rows.
+  void add_compliance(double factor, const qp::MultiVector &x, qp::MultiVector &y) const;
+
+  /// Return (B (diag K)^{-1} B' + D)_ii: the compliance of the unknowns of row i with their
   /// neighbours held. It is often far below F_ii, because the neighbours are held: a thousandth of
   /// F_ii where Poisson's ratio is 0.4999.
   const std::vector<double> &diagonal() const { return F_diagonal; }
@@ -95,20 +106,25 @@ public:
 private:
   class FetiFreeSet;
 
-  void                   factorize();
-  std::vector<double>    gather_entries();
-  std::vector<RowForces> find_soft_modes(const std::vector<double> &entries) const;
-  void                   weight_rows();
-  void                   precondition(qp::MultiVector &x) const;
-  unsigned int           n_columns(const PrimalVectors &v) const;
+  void                     factorize();
+  std::vector<double>      gather_entries();
+  void                     weight_ground(const std::vector<double> &entries);
+  qp::RowSet               rows_of_soft_modes() const;
+  std::vector<JumpColumns> jumps(const std::vector<double> &entries) const;
+  std::vector<RowForces>   find_soft_modes(const std::vector<double> &entries) const;
+  void                     weight_rows();
+  void                     precondition(qp::MultiVector &x) const;
+  unsigned int             n_columns(const PrimalVectors &v) const;
 
   const DualStructure                &structure;
   const std::vector<SubdomainSystem> &systems;
   const ConstraintRows                rows;
+  const std::vector<double>           D;
   SharedOperators                     operators;
   std::unique_ptr<const CoarseSpace>  coarse_space;
   std::unique_ptr<const RowGram>      gram;
   std::vector<double>                 F_diagonal;
+  std::vector<double>                 ground; ///< compliances of springs as D^-1 weights copies
   /// B D^{-1} of each subdomain, numbered by the boundary positions of its Schur complement
   ConstraintRows                   weighted_B;
   std::unique_ptr<const Deflation> deflation; ///< null without soft modes

@@ -41,10 +41,12 @@ class RowGram
 {
 public:
   /// Compute the values. @p entries holds B and 1/D for each gathered entry, @p stride numbers
-  /// apart. @p structure must outlive this object.
+  /// apart. @p ground holds 1/D of the unknown of a spring at its owned row; empty: no springs.
+  /// @p structure must outlive this object.
   RowGram(const RowGramStructure    &structure,
           const std::vector<double> &entries,
-          unsigned int               stride);
+          unsigned int               stride,
+          const std::vector<double> &ground = {});
 
   /// The part of the factorization that depends on the set M.
   class Factor

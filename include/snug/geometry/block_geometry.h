@@ -36,6 +36,12 @@ public:
     return mesh->regions[coarse_cell / cells_per_block()];
   }
 
+  /// Blocks that are parts of elements have one coarse cell.
+  ElementPart<dim> element_part(unsigned int coarse_cell) const override
+  {
+    return mesh->parts.empty() ? ElementPart<dim>() : mesh->parts[coarse_cell];
+  }
+
   std::vector<KnownSurface<dim>> known_surfaces() const override { return mesh->known_surfaces; }
 
   unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override;

@@ -1,6 +1,7 @@
 #ifndef snug_geometry_block_mesh_h
 #define snug_geometry_block_mesh_h
 
+#include <snug/geometry/body_geometry.h>
 #include <snug/geometry/patch.h>
 
 #include <deal.II/base/point.h>
@@ -39,6 +40,7 @@ struct BlockMesh
   std::vector<dealii::Point<dim>>        vertices;
   std::vector<std::vector<unsigned int>> blocks;  ///< deal.II vertex order
   std::vector<unsigned int>              regions; ///< per block
+  std::vector<ElementPart<dim>>          parts;   ///< per block; empty if no element was split
   std::map<Face, unsigned int>           boundaries;
   std::vector<std::string>               boundary_names, region_names;
   /// curved boundaries, and the surfaces on which the boundaries lie

@@ -8,6 +8,7 @@
 #include <deal.II/base/tensor.h>
 
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -30,7 +31,8 @@ enum class Source
   cylinder,
   sphere,
   shell,
-  file
+  file,
+  cad
 };
 Names names(Source);
 
@@ -82,7 +84,7 @@ struct BodyMeshParameters
   std::vector<unsigned int> round_cells;
   /// @}
 
-  /// @name Mesh files
+  /// @name Mesh files and CAD files
   /// @{
   std::string              file;    ///< path
   std::vector<std::string> regions; ///< regions of the file in the body; empty: all
@@ -93,6 +95,12 @@ struct BodyMeshParameters
   /// boundary -> "facets" | "smooth"
   std::map<std::string, std::string>  surfaces;
   std::shared_ptr<const ImportedMesh> imported; ///< contents of the file
+  unsigned int solid = 0; ///< number of the solid of a CAD file, from 1; 0: the only one
+  /// boundary -> faces of a CAD file, "3 + 4 + chain 7"
+  std::map<std::string, std::string> cad_faces;
+  double                             element_size = 0.; ///< of the mesh of a CAD file [length]
+  std::map<std::string, double>      face_sizes;        ///< boundary -> element size [length]
+  double                             size_growth = 0.3; ///< of element sizes per distance
   /// @}
 
   /// @name Regions, to which materials may refer, and parts of boundaries
@@ -143,6 +151,26 @@ struct MeshPoint
 {
   unsigned int       cell;
   dealii::Point<dim> unit;
+};
+
+constexpr unsigned int no_element = static_cast<unsigned int>(-1);
+
+/**
+ * The place of a cell in the element of a mesh file of which the cell is a part. Elements are split
+ * into one cell at each corner: vertex 0 of the cell is the corner, axis d of the cell leads to the
+ * middle of the edge towards the corner towards[d], and the last vertex is the middle of the
+ * element. Elements number their corners around the bottom, then around the top.
+ */
+template <int dim>
+struct ElementPart
+{
+  unsigned int                   element   = no_element; ///< index in the body
+  unsigned char                  n_corners = 0;          ///< of the element
+  unsigned char                  corner    = 0;
+  std::array<unsigned char, dim> towards   = {};
+
+  /// Return whether the element is a triangle, a tetrahedron or a prism.
+  bool has_triangles() const { return element != no_element && n_corners != 1u << dim; }
 };
 
 /// Return the centre of a cell in the coordinates of the cell.
@@ -196,6 +224,10 @@ public:
   /// Return the index of the region of a cell of the coarse mesh.
   virtual unsigned int region(unsigned int /*coarse_cell*/) const { return 0; }
 
+  /// Return the part of an element of a mesh file that a cell of the coarse mesh is. Return
+  /// no_element for cells that no element was split into.
+  virtual ElementPart<dim> element_part(unsigned int /*coarse_cell*/) const { return {}; }
+
   /// Return the surfaces of known shape on which boundary faces lie up to round-off, without
   /// planes.
   virtual std::vector<KnownSurface<dim>> known_surfaces() const { return {}; }
@@ -225,6 +257,9 @@ public:
   /// Return whether the body has a grid. The partition "auto" uses METIS for bodies without a
   /// grid, such as bodies of blocks.
   virtual bool has_grid() const { return false; }
+
+  /// Return whether a boundary is a whole side of a box.
+  virtual bool is_box_side(unsigned int /*boundary*/) const { return false; }
 
   /**
    * Return the coordinates in [0,1]^dim of the frame of the body at @p logical. Coordinate d is 0

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace snug {
 class SectionCheck;
@@ -46,6 +47,30 @@ public:
 private:
   std::string                                  entry, text;
   std::unique_ptr<dealii::FunctionParser<dim>> parser;
+};
+
+/// A muParser formula of named variables, of which it may contain at most four.
+class VariableFormula
+{
+public:
+  /// Parse @p text, found in the entry called @p entry. @throws InputError as Formula does.
+  VariableFormula(const std::string              &entry,
+                  const std::string              &text,
+                  const std::vector<std::string> &variables);
+  ~VariableFormula();
+  VariableFormula(VariableFormula &&) noexcept;
+
+  /// Return whether the formula contains a variable, given by its index.
+  bool contains(unsigned int variable) const;
+
+  /// Return the value for the values of all variables. @throws InputError naming the @p place if
+  /// the value is not finite.
+  double value(const std::vector<double> &values, const dealii::Tensor<1, 3> &place) const;
+
+private:
+  std::string                                entry, text;
+  std::vector<unsigned int>                  contained; ///< indices of the variables
+  std::unique_ptr<dealii::FunctionParser<3>> parser;
 };
 
 /// Return the value of a formula without variables, or nothing if @p text is no such formula or its

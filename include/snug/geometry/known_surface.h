@@ -16,13 +16,24 @@ struct BoundaryShape
   double facet_height = 0.;
 };
 
+/// This class is a curve or a surface onto which points are projected.
+template <int dim>
+class Projection
+{
+public:
+  virtual ~Projection() = default;
+
+  /// Return the point of the curve or surface that is closest to @p x.
+  virtual dealii::Point<dim> project(const dealii::Point<dim> &x) const = 0;
+};
+
 /**
  * A surface of revolution on which faces may lie: a sphere, in 3D also a
  * cylinder, a cone or a torus. In 2D a sphere is a circle. Normals at points of the
  * surface are exact up to round-off, as contact of bodies that may rotate freely requires.
  */
 template <int dim>
-class KnownSurface
+class KnownSurface : public Projection<dim>
 {
 public:
   enum class Kind
@@ -53,8 +64,7 @@ public:
   /// Return the outward unit normal of the body at the point closest to @p x.
   Vector normal(const Point &x) const;
 
-  /// Return the point closest to @p x.
-  Point project(const Point &x) const { return x - distance(x) * normal(x); }
+  Point project(const Point &x) const override { return x - distance(x) * normal(x); }
 
   /// Return the surface after the placement x' = s Q x + t of the body.
   KnownSurface placed(double scale, const dealii::Tensor<2, dim> &Q, const Vector &shift) const;

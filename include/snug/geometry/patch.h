@@ -15,10 +15,12 @@ struct GeometryConstraints
 {
   std::vector<KnownSurface<dim>>      surfaces;
   std::vector<dealii::Tensor<1, dim>> planes; ///< unit normals
+  /// curve or surface onto which points are projected first; null: none
+  std::shared_ptr<const Projection<dim>> first = {};
 
-  /// Return a point near @p x that lies on all surfaces and stays in the planes through @p x. The
-  /// point is found by Newton's method with steps of minimum length. If surfaces are almost tangent
-  /// at the point, only the first of these surfaces is used.
+  /// Return a point near the projection of @p x that lies on all surfaces and stays in the planes
+  /// through @p x. The point is found by Newton's method with steps of minimum length. If surfaces
+  /// are almost tangent at the point, only the first of these surfaces is used.
   dealii::Point<dim> onto(dealii::Point<dim> x) const;
 };
 
@@ -86,10 +88,10 @@ public:
     bool                            reversed = false;
   };
 
-  std::vector<Point>                     corners;
-  std::vector<Side>                      sides;
-  Vector                                 bubble;  ///< b
-  std::shared_ptr<const KnownSurface<3>> surface; ///< null if the facet has no surface
+  std::vector<Point>                   corners;
+  std::vector<Side>                    sides;
+  Vector                               bubble;  ///< b
+  std::shared_ptr<const Projection<3>> surface; ///< null if the facet has no surface
 
   Point position(const dealii::Point<2> &at) const override;
 

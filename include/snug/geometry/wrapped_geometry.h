@@ -26,6 +26,11 @@ public:
 
   unsigned int region(unsigned int coarse_cell) const override { return body->region(coarse_cell); }
 
+  ElementPart<dim> element_part(unsigned int coarse_cell) const override
+  {
+    return body->element_part(coarse_cell);
+  }
+
   std::vector<KnownSurface<dim>> known_surfaces() const override { return body->known_surfaces(); }
 
   unsigned int known_surface(unsigned int coarse_cell, unsigned int face) const override
@@ -45,6 +50,8 @@ public:
   dealii::Tensor<1, dim> extent() const override { return body->extent(); }
 
   bool has_grid() const override { return body->has_grid(); }
+
+  bool is_box_side(unsigned int boundary) const override { return body->is_box_side(boundary); }
 
   Point box_fraction(const Point &logical) const override { return body->box_fraction(logical); }
 

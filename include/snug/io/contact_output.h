@@ -12,9 +12,9 @@
 
 namespace snug::io {
 /**
- * The series contact.pvd of contact faces. State number i is contact-000i.vtu (all faces of both
- * sides, undeformed, in the position of the load case) with a table of the contact rows beside it,
- * contact-000i.csv. Rank 0 writes.
+ * The series contact.pvd of contact faces. State number i is contact-000i.vtm with a block per
+ * boundary of both sides, undeformed, in the position of the load case, and contact-000i.pvtu with
+ * all of them, see write_state(). The table of the contact rows is contact-000i.csv. Rank 0 writes.
  *
  * | field               | meaning                          | units           |
  * |---------------------|----------------------------------|-----------------|
@@ -44,6 +44,9 @@ namespace snug::io {
  * and are active or weak if all their masters are. The same holds for nodes without a row for
  * which other rows act (mortar). At all other nodes they are 0. A node of several pairs has one
  * point in each pair. In the table a row has the pair with the maximum share in the row.
+ * The table also has the unit outward normals of the slave side and, in 2D, arc_length, the length
+ * along the undeformed boundary from its begin. Its rows are sorted by pair and along the
+ * boundaries.
  */
 template <int dim>
 class ContactOutput
@@ -60,9 +63,11 @@ public:
     const contact::PlacedSurface<dim>               &placed;
   };
 
-  /// Files go to the directory @p directory, which must exist.
-  ContactOutput(const std::string &directory, const scene::OutputParameters &parameters)
-    : directory(directory), compression(parameters.compression)
+  /// Files go to the directory @p directory, which must exist. Blocks have the @p body_names.
+  ContactOutput(const std::string              &directory,
+                const scene::OutputParameters  &parameters,
+                const std::vector<std::string> &body_names)
+    : directory(directory), compression(parameters.compression), body_names(body_names)
   {}
 
   /// Add @p state to the series with the time @p time, and return the name of its file.
@@ -73,6 +78,7 @@ public:
 private:
   std::string                                 directory;
   unsigned int                                compression;
+  std::vector<std::string>                    body_names;
   std::vector<std::pair<double, std::string>> series;
 };
 

@@ -13,9 +13,9 @@
 
 namespace snug::io {
 /**
- * The series solution.pvd of fields on the bodies. State number i is solution-000i.pvtu, which
- * joins one solution-000i.GROUP.vtu per group of ranks, with a piece per rank. OutputParameters
- * give the number of ranks per group.
+ * The series solution.pvd of fields on the bodies and on their boundaries. State number i is
+ * solution-000i.vtm with a block per body and per boundary, see write_state(), and
+ * solution-000i.pvtu with all bodies. OutputParameters give the number of ranks per file.
  *
  * Points lie on the design in the position of the load case, before deformation: "warp by vector
  * displacement" shows the deformed bodies, and warping by minus design_displacement shows the
@@ -24,8 +24,9 @@ namespace snug::io {
  * | field               | components | units                |
  * |---------------------|------------|----------------------|
  * | displacement        | 3          | length               |
- * | stress              | 9          | force / length^2     |
+ * | stress              | 6          | force / length^2     |
  * | von_mises           | 1          | force / length^2     |
+ * | principal_stress    | 3          | force / length^2     |
  * | body                | 1          | index of `Bodies`    |
  * | design_displacement | 3          | length               |
  * | shape_gradient      | 3          | objective / length   |
@@ -33,8 +34,10 @@ namespace snug::io {
  * | subdomain, of cells | 1          | global id            |
  * | error, of cells     | 1          | (force length)^(1/2) |
  *
- * The stress is smoothed by nodal_stress(). The von Mises stress is that of the smoothed stress. In
- * 2D the component zz is the stress across the section, which is the hoop stress if axisymmetric.
+ * The stress is smoothed by nodal_stress(). The von Mises stress and the principal stresses
+ * (maximum, middle, minimum) are those of the smoothed stress. In 2D the component ZZ is the stress
+ * across the section, which is the hoop stress if axisymmetric. Boundaries show the values of their
+ * cells.
  */
 template <int dim>
 class FieldOutput
@@ -45,13 +48,15 @@ public:
   {
     const mesh::BodyMesh<dim>                &mesh;
     const mesh::Tearing                      &tearing;
-    const std::vector<state::BodyModel<dim>> &bodies;   ///< materials and formulations
-    const contact::Position<dim>             &position; ///< of the bodies in the load case
+    const std::vector<state::BodyModel<dim>> &bodies; ///< materials and formulations
+    const state::LoadCase<dim>               &load_case;
   };
 
-  /// Files go to the directory @p directory, which must exist.
-  FieldOutput(const std::string &directory, const scene::OutputParameters &parameters)
-    : directory(directory), parameters(parameters)
+  /// Files go to the directory @p directory, which must exist. Blocks have the @p body_names.
+  FieldOutput(const std::string              &directory,
+              const scene::OutputParameters  &parameters,
+              const std::vector<std::string> &body_names)
+    : directory(directory), parameters(parameters), body_names(body_names)
   {}
 
   /**
@@ -60,7 +65,7 @@ public:
    * @param[in] shape_gradient dJ/dX at the local nodes, including hanging nodes, as shares that
    * add up over ranks; null: not written.
    * @param[in] errors estimated errors of the cells; null: not written.
-   * @return the name of the file that lists the files of all ranks.
+   * @return the name of the file that lists the blocks.
    * @throws std::runtime_error if a file cannot be written.
    */
   std::string write(const Sources                             &of,
@@ -72,6 +77,7 @@ public:
 private:
   std::string                                 directory;
   scene::OutputParameters                     parameters;
+  std::vector<std::string>                    body_names;
   std::vector<std::pair<double, std::string>> series;
 };
 } // namespace snug::io

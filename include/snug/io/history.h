@@ -9,28 +9,32 @@ namespace snug::io {
 struct HistoryLine
 {
   unsigned int        iteration            = 0;
+  unsigned int        evaluations          = 0;  ///< analyses of designs so far
   double              objective            = 0.; ///< in the units of the response
   double              constraint_violation = 0.; ///< dimensionless
-  double              projected_gradient   = 0.; ///< dimensionless
-  unsigned int        active_contacts      = 0;
-  unsigned long       f_mults              = 0;
-  double              scaled_jacobian      = 0.; ///< minimum over cells
-  double              seconds              = 0.; ///< since the start of the run
-  std::vector<double> design;                    ///< [length]
-  std::vector<double> values;                    ///< of the columns that History was given
+  std::string         violated;                  ///< constraint with this violation, or empty
+  double              projected_gradient = 0.;   ///< dimensionless
+  unsigned int        active_contacts    = 0;
+  unsigned long       f_mults            = 0;
+  double              scaled_jacobian    = 0.; ///< minimum over cells
+  double              seconds            = 0.; ///< since the start of the run
+  std::vector<double> design;                  ///< [length]
+  std::vector<double> values;                  ///< of the columns that History was given
 };
 
 /// Return the names of the columns of log_line().
 std::string log_header();
 
-/// Return the line of the log for @p line, without the end of line.
+/// Return the line of the log for @p line, without the end of line. A violated constraint is named
+/// behind the columns.
 std::string log_line(const HistoryLine &line);
 
 /**
  * This class writes the file history.csv. It has one line per design iteration with the columns
- * iteration, objective, constraint_violation, projected_gradient, active_contacts, f_mults,
- * scaled_jacobian, seconds, design_0, design_1, .., further columns with names of the caller, and
- * 17 significant digits. The file on disk is complete after every add(). The class is for one rank.
+ * iteration, evaluations, objective, constraint_violation, projected_gradient, active_contacts,
+ * f_mults, scaled_jacobian, seconds, design_0, design_1, .., further columns with names of the
+ * caller, and 17 significant digits. The file on disk is complete after every add(). The class is
+ * for one rank.
  */
 class History
 {

@@ -33,13 +33,15 @@ unsigned int n_stress_regions(const mesh::BodyMesh<dim> &mesh);
  * @param[in] bodies Materials and formulations.
  * @param[in] positions, displacement Values at the local nodes, valid at nodes of owned cells
  * [length].
+ * @param[in] loads Loads of the bodies, whose temperatures cause thermal strains; empty: none.
  */
 template <int dim>
 std::vector<dealii::SymmetricTensor<2, 3>>
 nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
              const std::vector<state::BodyModel<dim>>  &bodies,
              const typename mesh::BodyMesh<dim>::Field &positions,
-             const typename mesh::BodyMesh<dim>::Field &displacement);
+             const typename mesh::BodyMesh<dim>::Field &displacement,
+             const std::vector<state::BodyLoads<dim>>  &loads = {});
 } // namespace snug::io
 
 #endif

@@ -27,6 +27,21 @@ void write_surface(const std::string             &path,
 template <int dim>
 void write_control_points(const std::string                         &path,
                           const std::vector<shape::MovedPoint<dim>> &points);
+
+/**
+ * Write the gradients of responses as CSV, one row per design variable. The columns are variable,
+ * shape and control_points (the control points that the variable moves, separated by blanks), x, y,
+ * z (3D) of the point of the body at the first of them, and one column of dJ/dalpha for each name.
+ * Variables without control points, such as amplitudes of formula modes, have empty entries
+ * instead.
+ * @p gradients holds one vector per name, with one entry per variable. For one rank.
+ * @throws std::runtime_error if the file cannot be written.
+ */
+template <int dim>
+void write_gradients(const std::string                         &path,
+                     const std::vector<shape::MovedPoint<dim>> &points,
+                     const std::vector<std::string>            &names,
+                     const std::vector<std::vector<double>>    &gradients);
 } // namespace snug::io
 
 #endif

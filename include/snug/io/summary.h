@@ -15,6 +15,10 @@
 #include <utility>
 #include <vector>
 
+namespace snug::scene {
+struct Scene;
+} // namespace snug::scene
+
 namespace snug::io {
 /**
  * The numbers of a run, as written to summary.json. Other tools read that file. The members down
@@ -105,6 +109,14 @@ struct Summary
     double      value = none, error = none;
   };
 
+  /// A face of profile.step.
+  struct ProfileFace
+  {
+    std::string               name;
+    std::vector<unsigned int> spans;                          ///< of B-splines, per direction
+    double                    deviation = none, asked = none; ///< maximum [length]
+  };
+
   /// One of the meshes refined for a target.
   struct AdaptedMesh
   {
@@ -154,7 +166,10 @@ struct Summary
   std::optional<State>        initial_state; ///< state of the first design
   std::vector<LoadCase>       load_cases;    ///< empty if there is only one load case
   std::vector<std::string>    warnings;
-  std::optional<Adaptation>   accuracy; ///< adaptation to a target
+  /// {quantity, unit} for "length", "force", "stress" and the responses; empty without 'Units'
+  std::vector<std::pair<std::string, std::string>> units;
+  std::optional<Adaptation>                        accuracy; ///< adaptation to a target
+  std::vector<ProfileFace>                         profile;  ///< faces of profile.step
 
   /// advice, if the user asked for it
   std::optional<std::vector<advice::Advice>> advice;
@@ -178,6 +193,9 @@ std::string blas_name(const std::string &file, const std::string &openblas_confi
 
 /// Return one line of advice if the BLAS is the reference BLAS; else empty.
 std::string blas_warning(const Summary::Program &program);
+
+/// Return the member units.
+std::vector<std::pair<std::string, std::string>> summarize_units(const scene::Scene &scene);
 
 /// Return all members of Mesh except dual_rows, contact_rows and kernel_dimension.
 template <int dim>

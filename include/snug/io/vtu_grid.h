@@ -9,11 +9,13 @@
 #include <vector>
 
 namespace snug::io {
-/// A quantity with 1 component for a scalar, dim for a vector, or 9 (row by row) for a tensor.
+/// A quantity with 1 component for a scalar, dim for a vector, or 6 for a symmetric tensor in the
+/// order of VTK: XX, YY, ZZ, XY, YZ, XZ.
 struct Quantity
 {
-  std::string  name;
-  unsigned int components;
+  std::string              name;
+  unsigned int             components;
+  std::vector<std::string> names = {}; ///< of the components; empty: the axes
 };
 
 /**
@@ -42,29 +44,38 @@ public:
   /// (none) to 9.
   std::string piece(unsigned int compression) const;
 
-  /// Return the PVTU text that joins VTU files.
-  std::string pvtu(const std::vector<std::string> &files) const;
+  /// Return whether there is no cell.
+  bool is_empty() const { return corners.empty(); }
+
+  /// Return the declarations of the arrays for pvtu().
+  std::string declarations() const;
 
 private:
   /// One quantity at all points, or of all cells.
   struct Array
   {
-    std::string        name;
-    unsigned int       components; ///< number of given components
-    unsigned int       written;    ///< number of components including zeros
-    std::vector<float> values;
+    std::string              name;
+    unsigned int             components; ///< number of given components
+    std::vector<std::string> names;      ///< of the written components; empty for a scalar
+    std::vector<float>       values;
+
+    std::size_t n_written() const { return names.empty() ? 1 : names.size(); }
   };
 
   static std::vector<Array> arrays(const std::vector<Quantity> &quantities);
   static void               append(const std::vector<double> &values, std::vector<Array> &to);
 
   std::vector<Array>        at_points, of_cells;
-  Array                     places{"", dim, 3, {}};
+  Array                     places{"", dim, {"X", "Y", "Z"}, {}};
   std::vector<std::int32_t> corners; ///< 2^d corners of each drawn cell, in the order of VTK
 };
 
 /// Return the VTU text of pieces with the same quantities, as those of several ranks.
 std::string vtu(const std::vector<std::string> &pieces);
+
+/// Return the PVTU text that joins VTU files with the same arrays. @param[in] declarations Those of
+/// a grid with these arrays.
+std::string pvtu(const std::string &declarations, const std::vector<std::string> &files);
 
 /// Return the PVD text of a series of (time, file).
 std::string pvd(const std::vector<std::pair<double, std::string>> &series);

@@ -3,6 +3,7 @@
 
 #include <snug/mesh/forest.h>
 #include <snug/mesh/parts.h>
+#include <snug/mesh/quadratic_elements.h>
 
 #include <deal.II/distributed/fully_distributed_tria.h>
 
@@ -16,6 +17,8 @@ namespace snug::mesh {
  * distributed over all ranks in runs of consecutive parts. The numbers of cells of two ranks
  * differ by at most about two parts.
  *
+ * The cells of an element of @p elements that is whole are in one part.
+ *
  * @param refined cells of @p coarse and their children.
  * @param result an empty triangulation, which receives the same cells.
  * @return the parts of this rank's cells of @p result, numbered body by
@@ -26,6 +29,7 @@ namespace snug::mesh {
 template <int dim>
 std::vector<unsigned int>
 distribute(const CoarseMesh<dim>                                   &coarse,
+           const QuadraticElements<dim>                            &elements,
            const TearingParameters                                 &parameters,
            const CellsPerSubdomain                                 &by_size,
            const dealii::parallel::distributed::Triangulation<dim> &refined,
@@ -35,6 +39,7 @@ distribute(const CoarseMesh<dim>                                   &coarse,
 template <int dim>
 std::vector<unsigned int>
 distribute(const CoarseMesh<dim>                                  &coarse,
+           const QuadraticElements<dim>                           &elements,
            const TearingParameters                                &parameters,
            const CellsPerSubdomain                                &by_size,
            dealii::parallel::fullydistributed::Triangulation<dim> &result);

@@ -2,6 +2,7 @@
 #define snug_mesh_partition_h
 
 #include <snug/base/choice.h>
+#include <snug/geometry/body_geometry.h>
 #include <snug/mesh/cell_graph.h>
 
 #include <deal.II/base/point.h>
@@ -31,6 +32,10 @@ struct TearingParameters
   void declare(Entries &entries);
 };
 
+/// The element that must not be divided (see QuadraticElements), or no_element, and the number of
+/// unknowns of the cell divided by that of a cell of no element.
+using CellPlace = std::pair<unsigned int, double>;
+
 /**
  * The cells of one body that a rank holds before the parts are decided.
  * Cells have numbers that are unique over ranks. Cells also have keys {level and coarse cell,
@@ -44,6 +49,7 @@ struct CellSet
 
   MPI_Comm                        communicator;
   std::vector<dealii::Point<dim>> centres; ///< logical
+  std::vector<CellPlace>          places;
   std::vector<unsigned int>       numbers;
   std::vector<Key>                keys;
   /// pairs of numbers of cells that share a face; each pair of the body is on one rank only
@@ -53,6 +59,18 @@ struct CellSet
   unsigned long          n_slender; ///< number of cells with CellShape::is_slender()
   dealii::Tensor<1, dim> size;      ///< along the logical axes
   bool                   layered;   ///< all cells lie in layers along the logical axes
+
+  /// Add the place and the centre of a cell. @p logical returns the logical position at
+  /// coordinates in the cell. The centre of a cell of an element is that of the element, so that a
+  /// grid does not divide elements.
+  template <typename Logical>
+  void add(const CellPlace &place, const Logical &logical)
+  {
+    const auto centre = geometry::unit_centre<dim>();
+    places.push_back(place);
+    centres.push_back(
+      logical(place.first == geometry::no_element ? centre : dealii::Point<dim>(2. * centre)));
+  }
 };
 
 /// Parts of one body, the same on any number of ranks.

@@ -12,15 +12,18 @@ namespace snug::mesh_file {
 /// quadrilateral in 3D. The corners have the order of faces_of().
 struct Facet
 {
+  static constexpr unsigned int no_face = static_cast<unsigned int>(-1);
+
   std::vector<unsigned int> corners;
   unsigned int              boundary;
+  unsigned int              face = no_face; ///< index into ExactFaces::faces
 };
 
 /**
  * This class stores the surface of a body as facets, and divides the surface into smooth parts. Two
  * facets share a ridge, which is a node in 2D and an edge in 3D. A ridge is a feature, and divides
  * parts, if two boundaries meet there, the facets meet at more than 30 degrees, or the number of
- * facets is not two.
+ * facets is not two. Where faces are known exactly, features are the ridges between two of them.
  */
 template <int dim>
 class BodySurface

@@ -26,15 +26,15 @@ struct SplitCells
  * The parts of a split triangle are bilinear in the coordinates of the triangle.
  *
  * Where the scaled Jacobian of a block is below 0.2 of its value with straight edges, the curves
- * and patches of the block are moved halfway towards the straight ones, repeatedly. @p notes
- * contain their number.
+ * and patches of the block are moved halfway towards the straight ones, repeatedly. @p warnings
+ * gets a line with their number and the maximum distance from the true surface.
  */
 template <int dim>
 void curve_blocks(geometry::BlockMesh<dim> &mesh,
                   const SplitCells         &cells,
                   const BodySurface<dim>   &surface,
                   const SurfaceShapes<dim> &shapes,
-                  std::vector<std::string> &notes);
+                  std::vector<std::string> &warnings);
 } // namespace snug::mesh_file
 
 #endif

@@ -2,6 +2,8 @@
 #define snug_mesh_file_import_mesh_h
 
 #include <snug/geometry/imported_mesh.h>
+#include <snug/mesh_file/exact_faces.h>
+#include <snug/mesh_file/mesh_file.h>
 
 namespace snug::mesh_file {
 /**
@@ -21,6 +23,17 @@ std::shared_ptr<const geometry::ImportedMesh>
 import_mesh(const std::string                  &text,
             const geometry::BodyMeshParameters &parameters,
             unsigned int                        dim);
+
+/// Return the same for the content of a mesh file that was read before. @p exact are the faces on
+/// which the nodes of the boundary lie; null: the surfaces follow from the mesh. The hash is not
+/// set.
+template <int dim>
+std::shared_ptr<geometry::ImportedMesh> import_mesh(const MeshFile                     &file,
+                                                    const geometry::BodyMeshParameters &parameters,
+                                                    const ExactFaces<dim> *exact = nullptr);
+
+/// Return the hash FNV-1a of 64 bits, which is equal on all machines, unlike std::hash.
+std::uint64_t text_hash(const std::string &text);
 } // namespace snug::mesh_file
 
 #endif

@@ -74,7 +74,9 @@ struct OptimizationResult
   double              objective_final      = 0.;
   double              constraint_violation = 0.; ///< as in Iteration
   double              projected_gradient   = 0.; ///< as in Iteration
-  StopReason          end                  = StopReason::none;
+  /// name of the constraint with this violation, for messages; whoever calls minimize() sets it
+  std::string violated;
+  StopReason  end = StopReason::none;
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
   /// "interrupted", "a constraint without a gradient at the first design..."

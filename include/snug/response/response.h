@@ -138,6 +138,11 @@ using MakeResponse = std::unique_ptr<Response<dim>>(const ResponseParameters &);
 template <int dim>
 const ChoiceTable<MakeResponse<dim>> &response_table();
 
+/// Return the unit of a quantity of the table as an expression in length and force, such as
+/// "force/length^2"; empty for quantities without a dimension.
+template <int dim>
+std::string unit_of(const std::string &quantity);
+
 /// Return the response that @p parameters describe.
 template <int dim>
 std::unique_ptr<Response<dim>> make_response(const ResponseParameters &parameters);

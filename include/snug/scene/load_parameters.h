@@ -28,6 +28,8 @@ struct LoadParameters
   std::map<std::string, std::vector<double>> force;
   /// moment about the centroid of the face [force length]; one number in 2D
   std::map<std::string, std::vector<double>> moment;
+  /// forces at points [force] and along lines [force / length], see placed_force()
+  std::vector<std::pair<std::string, std::string>> point_forces, line_forces;
   /// "component = formula" [length]
   std::vector<std::pair<std::string, std::string>> displacements;
 
@@ -42,6 +44,9 @@ struct LoadParameters
 
   void check(const SectionCheck &section, const RequireKey &require_key) const;
 
+  /// Check the forces at points and along lines, as check() does.
+  void check_placed(const SectionCheck &section, const RequireKey &require_key) const;
+
   /// Check the prescribed displacements. @p held contains the components held by supports, and
   /// the prescribed components are added. @p prefix completes a key to "body.boundary".
   void
@@ -51,10 +56,12 @@ struct LoadParameters
 /// Entries of `subsection Load case NAME`.
 struct LoadCaseParameters
 {
-  std::string         name;
-  double              weight = 1.; ///< weight in the objective
-  LoadParameters      loads;       ///< loads besides those of the bodies
-  std::vector<double> gravity;     ///< [length / time^2], in addition to the scene's gravity
+  std::string    name;
+  double         weight = 1.; ///< weight in the objective
+  LoadParameters loads;       ///< loads besides those of the bodies
+  /// formulas of temperatures by body, in addition to those of the bodies
+  std::map<std::string, std::string> temperatures;
+  std::vector<double> gravity; ///< [length / time^2], in addition to the scene's gravity
   /// cases that the section stands for; with_cases() has replaced sections with more than one
   unsigned int cases = 1;
   /// motions of bodies and obstacles by name, see geometry::rigid_motion()

@@ -20,6 +20,8 @@ struct SceneSource
   std::string              output_directory; ///< if not empty, it overrides the entry
   /// function that reads mesh files; if empty, mesh files cannot be read
   std::function<std::string(const std::string &file)> read_file = {};
+  /// communicator whose first rank reads CAD files and runs the program gmsh
+  MPI_Comm communicator = MPI_COMM_SELF;
 };
 
 /// Kinds of files from which text may be read. Devices and pipes need not end.
@@ -38,9 +40,9 @@ std::string read_text(const std::string &file,
                       TextSource         source = TextSource::regular_file);
 
 /**
- * Read and check a scene and the mesh files named in the scene. Empty lists that have a default
- * (corner, size, grading, body force, initial design) are filled in. Equal sources give equal
- * scenes and equal errors. Collective if reading files is collective.
+ * Read and check a scene and the mesh files and CAD files named in the scene. Empty lists that have
+ * a default (corner, size, grading, body force, initial design) are filled in. Equal sources give
+ * equal scenes and equal errors. Collective if reading files is collective.
  *
  * @throws InputError, one line with file, line, entry, value and the allowed values; see check()
  * for the checks beyond the form of values.

@@ -2,6 +2,7 @@
 #define snug_scene_scene_h
 
 #include <snug/accuracy/accuracy_parameters.h>
+#include <snug/base/units.h>
 #include <snug/contact/pair.h>
 #include <snug/elasticity/formulation.h>
 #include <snug/elasticity/material.h>
@@ -61,9 +62,15 @@ struct Body
   elasticity::Formulation            formulation = elasticity::Formulation::standard;
   /// boundary -> components held at zero: words made of "xyz", "normal"
   std::map<std::string, std::string> supports;
-  LoadParameters                     loads;
+  /// boundary -> 'components = formula' [force / length^3]
+  std::vector<std::pair<std::string, std::string>> springs;
+  /// boundary -> 'x y z at x y z', see placed_force() [force / length]
+  std::vector<std::pair<std::string, std::string>> point_springs;
+  LoadParameters                                   loads;
   /// formulas of the components [force / length^3]; empty: none
   std::vector<std::string> body_force;
+  /// formula of the temperature above that of the unstressed body; empty: none
+  std::string temperature;
 
   std::string section() const { return "Body " + name; }
 
@@ -76,13 +83,15 @@ struct Body
  */
 struct Scene
 {
-  std::string                              file; ///< scene file, for messages
-  Task                                     task      = Task::state;
-  unsigned int                             dimension = 3;              ///< dimension of the meshes
-  std::optional<mesh::Idealization::Kind>  model;                      ///< none: by dimension
-  double                                   thickness             = 1.; ///< of plane models [length]
-  std::string                              output_directory      = "output";
-  unsigned int                             degree                = 1;  ///< of the elements, 1 or 2
+  std::string                             file; ///< scene file, for messages
+  Task                                    task      = Task::state;
+  unsigned int                            dimension = 3;  ///< dimension of the meshes
+  std::optional<mesh::Idealization::Kind> model;          ///< none: by dimension
+  double                                  thickness = 1.; ///< of plane models [length]
+  std::vector<std::string>                units;          ///< names of length and force
+  std::string                             output_directory = "output";
+  /// degree of the elements, 1 or 2; 0 is auto, which read_scene() replaces
+  unsigned int                             degree                = 0;
   double                                   least_scaled_jacobian = 0.; ///< minimum of all cells
   std::vector<NamedMaterial>               materials;
   std::vector<Body>                        bodies;
@@ -152,6 +161,10 @@ struct ConstraintName
 /// closing, and a name such as "worst of peak" into combination and response. All other names are
 /// the response.
 ConstraintName constraint_name(const Scene &scene, const std::string &name);
+
+/// Return the unit of a response that response_called() knows, with a blank before it; empty if
+/// 'Units' is empty or the response has no dimension.
+std::string unit_after_number(const Scene &scene, const std::string &response);
 
 /// Return the response called @p name: a response of the scene, or a quantity with all entries at
 /// their defaults; nothing for other names.

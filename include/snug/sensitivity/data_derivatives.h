@@ -12,7 +12,7 @@ namespace snug::sensitivity {
  * and c_s, where the derivative g' of the gap is meant):
  *
  * primal ft_j = f'_j - K'_j u - B'_j^T lambda per subdomain,
- * dual ct_j = g'_j - B'_j u on the owned rows,
+ * dual ct_j = g'_j - B'_j u + D'_j lambda on the owned rows,
  * given b' n^, the bound_derivatives(), which are exact.
  *
  * parameters.derivatives selects exact derivatives or differences of K, f, B and g

@@ -8,14 +8,17 @@
 #include <deal.II/base/tensor.h>
 
 namespace snug::shape {
-/// Return the entry Direction as a unit vector. @throws InputError
+/// Return the entry Direction or Axis as a unit vector. @throws InputError
 template <int dim>
-dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters);
+dealii::Tensor<1, dim> unit_direction(const ShapeParameters &parameters,
+                                      const std::string     &entry = "Direction");
 
 /// Return the net with the entry Control points along @p n_axes axes. @p degree 0 means
-/// Bernstein polynomials. @throws InputError naming Control points or
-/// Degree.
-SplineNet spline_net(const ShapeParameters &parameters, unsigned int n_axes, unsigned int degree);
+/// Bernstein polynomials. @throws InputError naming Control points, Degree or Basis.
+SplineNet spline_net(const ShapeParameters               &parameters,
+                     unsigned int                         n_axes,
+                     unsigned int                         degree,
+                     const std::vector<SplineAxis::Ends> &ends = {});
 
 /// Check that the values of the entry Initial lie within the entry Bounds. @throws InputError
 void require_bounds(const ShapeParameters &parameters);

@@ -8,15 +8,13 @@ namespace snug::shape {
  * Return heights over a face from a net of n1 x n2 (2D: n1) control points,
  *   u(x) = sum_i B_i(s, t) alpha_i d(x),  i = j + n1 k,
  * with products B_i of B-splines of @p degree, or of Bernstein polynomials
- * if @p degree is 0. s and t are fractions of the bounding rectangle of the face, in the order
- * x, y, z. The rectangle spans all axes except the axis closest to the mean normal of the face,
- * and the face must be a graph over the rectangle. d is the given unit direction or the normal
- * of the face.
+ * if @p degree is 0. s and t are the fractions of FaceCoordinates. Splines are periodic along
+ * closed coordinates, and even across the boundaries of the entry Smooth across symmetry. d is the
+ * given unit direction or the normal of the face.
  *
  * Control points are placed at their Greville abscissae. For the entry Symmetry, control points
- * lie at the mean height of the face. Control points are shown on the face itself.
- * @throws InputError naming the entry Face, Control points, Degree or
- *   Direction.
+ * of a projection lie at the mean height of the face. Control points are shown on the face itself.
+ * Collective. @throws InputError naming the entry.
  */
 template <int dim>
 Modes<dim>

@@ -25,6 +25,13 @@ struct Control
   std::optional<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>> shown = {};
 };
 
+/// The limit sum_i row_i beta_i <= bound of the controls beta.
+struct ControlLimit
+{
+  std::map<unsigned int, double> row;
+  double                         bound;
+};
+
 /**
  * A linear operator from design variables to the moves of points. The points are the nodes and
  * samples of a shaped face, equal on all ranks, or the local nodes and samples of the mesh. Modes
@@ -46,6 +53,7 @@ struct Modes
   /// Return the row of the point of the body at the position where control point @p i is shown.
   /// Only modes with controls set this function.
   std::function<Row(unsigned int i)> row_at_point = {};
+  std::vector<ControlLimit>          limits       = {};
 
   Field apply(const std::vector<double> &alpha) const;
 };
@@ -121,6 +129,8 @@ public:
   Field        apply(const std::vector<double> &alpha) const override;
 
   const std::vector<Control<dim>> &controls() const { return modes.controls; }
+
+  const std::vector<ControlLimit> &limits() const { return modes.limits; }
 
   /// Return the move of the point of the body at the position where control point @p i is shown.
   /// @p alpha holds the variables of this basis alone.

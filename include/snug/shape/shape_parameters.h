@@ -22,28 +22,54 @@ struct BodyNames
 /// Ways in which the nodes of a body follow the shaped face of the body, see interior.h.
 enum class InteriorKind
 {
+  automatic,
   linear_blending,
   Laplace,
   elasticity
 };
 inline Names names(InteriorKind)
 {
-  return {{"linear blending",
+  return {{"auto", "linear blending for a whole side of a box, else elasticity"},
+          {"linear blending",
            "motion of the face, reduced linearly to zero at the opposite face; for boxes"},
           {"Laplace", "solution of the Laplace equation for each component of the motion"},
           {"elasticity", "solution of an elastic problem with a stiffness that grows as cells get "
                          "smaller"}};
 }
 
+/// Coordinates s and t on a face, see FaceCoordinates.
+enum class Coordinates
+{
+  automatic,
+  projection,
+  arc_length,
+  angle
+};
+inline Names names(Coordinates)
+{
+  return {{"auto", "projection if normals differ by at most 90 degrees, else angle for surfaces of "
+                   "revolution, else arc length"},
+          {"projection", "positions along the coordinate axes other than the axis closest to the "
+                         "normal"},
+          {"arc length", "arc length along the face; in 3D along the profile of an extrusion, and "
+                         "the position along the extrusion"},
+          {"angle", "angle about the centre; in 3D about the axis of a surface of revolution, and "
+                    "the arc length along its meridian"}};
+}
+
 /// Entries of `subsection Shape` or `subsection Shape NAME`.
 struct ShapeParameters
 {
-  std::string               name;           ///< empty if the scene has a single unnamed shape
-  std::string               basis = "none"; ///< a name of shape_basis_table()
-  std::string               face;           ///< "body.boundary"
-  std::vector<std::string>  bodies;         ///< bodies to shape instead of a face
-  std::vector<unsigned int> control_points; ///< per axis
-  unsigned int              degree = 3;     ///< of B-splines
+  std::string               name;            ///< empty if the scene has a single unnamed shape
+  std::string               basis = "none";  ///< a name of shape_basis_table()
+  std::string               face;            ///< "body.boundary + ..."
+  std::vector<std::string>  bodies;          ///< bodies to shape instead of a face
+  std::vector<unsigned int> control_points;  ///< per axis
+  unsigned int              degree      = 3; ///< of B-splines
+  Coordinates               coordinates = Coordinates::automatic;
+  std::vector<double>       axis, axis_point; ///< of angles and extrusions; empty: found
+  double                    start_angle = 0.; ///< of closed coordinates [degree]
+  std::vector<std::string>  smooth;           ///< boundaries that are symmetry planes
   /// direction of the moves; empty means the normal of the face, or every axis in boxes
   std::vector<double> direction;
   std::vector<double> box_corner, box_size; ///< [length]
@@ -53,10 +79,17 @@ struct ShapeParameters
   /// axis -> coordinate [length] of a mirror plane normal to the axis
   std::map<std::string, double> symmetry;
   std::vector<std::string>      fixed; ///< "border", control point indices
-  InteriorKind                  interior = InteriorKind::linear_blending;
-  double                        reach = 0.; ///< reach of the interior [length]; 0: the whole body
-  std::vector<double>           bounds;     ///< lower, upper
-  std::vector<double>           initial;    ///< one value, one per variable, or empty: 0
+  /// @name Limits of the moves
+  /// @{
+  bool   only_remove   = false;
+  double maximum_slope = 0.;    ///< 0: no limit
+  bool   convex        = false; ///< the moved face
+  double tool_radius   = 0.;    ///< minimum radius of concave curvature [length]; 0: no limit
+  /// @}
+  InteriorKind        interior = InteriorKind::automatic;
+  double              reach    = 0.; ///< reach of the interior [length]; 0: the whole body
+  std::vector<double> bounds;        ///< lower, upper
+  std::vector<double> initial;       ///< one value, one per variable, or empty: 0
 
   /// Return the name of the subsection, "Shape" or "Shape NAME".
   std::string section() const { return name.empty() ? "Shape" : "Shape " + name; }

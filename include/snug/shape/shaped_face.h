@@ -22,9 +22,12 @@ public:
              const ShapeParameters     &parameters);
 
   const mesh::BodyMesh<dim> &mesh() const { return body_mesh; }
-  unsigned int               body() const { return place.first; }
-  unsigned int               boundary() const { return place.second; }
-  const mesh::Surface<dim>  &surface() const { return nodes; }
+  unsigned int               body() const { return places.front().first; }
+  /// Return the boundaries of the body that make the face, in the order of the entry.
+  const std::vector<unsigned int> &boundaries() const { return own_boundaries; }
+  /// Return whether a boundary of the body belongs to the face.
+  bool                      has(unsigned int boundary) const;
+  const mesh::Surface<dim> &surface() const { return nodes; }
 
   /// Return the reference positions of the surface points [length].
   const Field &positions() const { return nodes.reference_positions(); }
@@ -32,6 +35,8 @@ public:
   /// of the body and the angle between normal and plane is less than 25 degrees, the normal is
   /// projected onto the plane, so that shapes stay in symmetry planes.
   const Field &normals() const { return unit_normals; }
+  /// Return the unit outward normals without this projection.
+  const Field &free_normals() const { return surface_normals; }
   /// Return the tributary areas of the surface points [length^(dim-1)]. The areas of hanging nodes
   /// and samples are zero.
   const std::vector<double> &areas() const { return node_areas; }
@@ -50,19 +55,21 @@ private:
   void find_border();
   void keep_to_planes();
 
-  const mesh::BodyMesh<dim>            &body_mesh;
-  std::pair<unsigned int, unsigned int> place; ///< body, boundary
-  mesh::Surface<dim>                    nodes;
-  Field                                 unit_normals;
-  std::vector<double>                   node_areas;
-  std::vector<bool>                     on_border;
+  const mesh::BodyMesh<dim>                         &body_mesh;
+  std::vector<std::pair<unsigned int, unsigned int>> places; ///< body, boundary
+  std::vector<unsigned int>                          own_boundaries;
+  mesh::Surface<dim>                                 nodes;
+  Field                                              unit_normals, surface_normals;
+  std::vector<double>                                node_areas;
+  std::vector<bool>                                  on_border;
 };
 
-/// Return (body, boundary) of "body.boundary", the entry Face. @throws InputError
+/// Return (body, boundary) of the parts of the entry Face, "body.boundary + ...". All parts are
+/// boundaries of one body. @throws InputError
 template <int dim>
-std::pair<unsigned int, unsigned int> find_face(const mesh::BodyMesh<dim> &mesh,
-                                                const BodyNames           &bodies,
-                                                const ShapeParameters     &parameters);
+std::vector<std::pair<unsigned int, unsigned int>> find_faces(const mesh::BodyMesh<dim> &mesh,
+                                                              const BodyNames           &bodies,
+                                                              const ShapeParameters &parameters);
 
 /// Return the unit vector of the entry Direction at the points of the face, or the normals if the
 /// entry is empty. @throws InputError

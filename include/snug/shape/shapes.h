@@ -50,6 +50,10 @@ public:
   const std::vector<double> &start() const { return initial; }
   /// @}
 
+  /// Return the limits row . alpha <= bound of several variables. Limits of single variables are
+  /// bounds.
+  const std::vector<std::pair<std::vector<double>, double>> &limits() const { return all_limits; }
+
   /**
    * Return, for each variable, the change in the first step of a search. The change moves no node
    * by more than half of the mean edge length of any cell of the reference mesh that has the node.
@@ -75,10 +79,12 @@ private:
   /// Return the variables of the basis of a part at a design.
   static std::vector<double> expanded(const Part &part, const std::vector<double> &alpha);
   void                       add_variables(const ShapeParameters &parameters, unsigned int n);
+  void                       add_limits(const Part &part, const ShapeParameters &parameters);
 
-  const mesh::BodyMesh<dim> &mesh;
-  std::vector<Part>          parts;
-  std::vector<double>        lower, upper, initial;
+  const mesh::BodyMesh<dim>                          &mesh;
+  std::vector<Part>                                   parts;
+  std::vector<double>                                 lower, upper, initial;
+  std::vector<std::pair<std::vector<double>, double>> all_limits;
 };
 } // namespace snug::shape
 

@@ -5,6 +5,7 @@
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/node_reach.h>
 #include <snug/mesh/tearing.h>
+#include <snug/state/concentrated_loads.h>
 #include <snug/state/resultant_loads.h>
 
 namespace snug::state {
@@ -24,7 +25,8 @@ public:
             const mesh::Subdomain           &subdomain,
             const Model<dim>                &model,
             const elasticity::Element<dim>  &element,
-            const elasticity::FaceLoad<dim> &face_load);
+            const elasticity::FaceLoad<dim> &face_load,
+            const ConcentratedLoads<dim>    &concentrated);
 
   unsigned int n_dofs() const { return dim * subdomain.nodes.size(); }
 
@@ -81,15 +83,36 @@ public:
   /// Return whether loads change in this subdomain when the rest of a loaded boundary moves.
   bool has_resultants() const;
 
-  bool has_body_force(unsigned int load_case) const;
-  /// Return the body force at the Gauss points of cell i of cells(), including gravity.
-  Nodes body_force(unsigned int i, unsigned int load_case) const;
+  /// @name Loads of cell i of cells() at its node positions X: body forces, gravity and thermal
+  /// strains
+  /// @{
+  bool  has_cell_loads(unsigned int load_case) const;
+  Nodes cell_load(unsigned int i, const Nodes &X, unsigned int load_case) const;
+  /// Return the derivative of cell_load() along V, exact.
+  Nodes cell_load_derivative(unsigned int i,
+                             const Nodes &X,
+                             const Nodes &V,
+                             unsigned int load_case) const;
+  /// Add factor * d/dX (cell_load . w) to the gradient.
+  void add_cell_load_gradient(unsigned int i,
+                              const Nodes &X,
+                              unsigned int load_case,
+                              const Nodes &w,
+                              double       factor,
+                              Nodes       &gradient) const;
+  /// Return the thermal strain; empty if there is none.
+  elasticity::ThermalStrain<dim> thermal_strain(unsigned int i, unsigned int load_case) const;
+  /// @}
+
   /// Return the material of cell i of cells().
   const elasticity::Material     &material(unsigned int i) const;
   const elasticity::Element<dim> &element() const { return the_element; }
 
 private:
-  void                  build_pattern();
+  void build_pattern();
+  bool has_body_force(unsigned int load_case) const;
+  /// Return the body force at the Gauss points of cell i, including gravity.
+  Nodes                 body_force(unsigned int i, unsigned int load_case) const;
   const BodyLoads<dim> &loads(unsigned int load_case) const
   {
     return model.load_cases[load_case].bodies[subdomain.body];
@@ -101,6 +124,7 @@ private:
   const Model<dim>                      &model;
   const elasticity::Element<dim>        &the_element;
   const elasticity::FaceLoad<dim>       &face_load;
+  const ConcentratedLoads<dim>          &concentrated;
   std::vector<unsigned int>              faces; ///< indices into boundary_faces()
   std::vector<mesh::NodeReach<dim>>      cell_reach, face_reach;
   std::vector<std::vector<unsigned int>> node_neighbours;

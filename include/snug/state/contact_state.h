@@ -14,7 +14,7 @@ namespace snug::state {
 /**
  * Relative errors of a solution, recomputed from K, f, B and g:
  * - Equilibrium is ||K u - f + B' lambda|| / (||f|| + ||B' lambda||), the maximum over bodies.
- * - Continuity is max|B_E u - g_E| and penetration is max(B_I u - g_I)+, both over
+ * - Continuity is max|B_E u - D lambda - g_E| and penetration is max(B_I u - g_I)+, both over
  *   max_i(F_ii |lambda_i|, |f_i| / K_ii).
  * - Negative pressure is max(-lambda_I)+ over max lambda_I.
  * - Complementarity is |lambda' w| over the strain energy.
@@ -146,12 +146,15 @@ struct ContactState
   dealii::Tensor<1, dim>     load;    ///< sum of all loads [force]
   dealii::Tensor<1, dim>     balance; ///< sum of loads, reactions and obstacle forces
 
-  double                 least_scaled_jacobian = 1.; ///< minimum over all cells
-  double                 energy                = 0.; ///< 1/2 u'Ku - f'u
-  double                 compliance            = 0.; ///< f'u
-  double                 strain_energy         = 0.; ///< 1/2 u'Ku
-  dealii::Tensor<1, dim> contact_force;              ///< on the slave sides [force]
-  double                 contact_area      = 0.;     ///< area of active rows
+  double least_scaled_jacobian = 1.; ///< minimum over all cells
+  /// @name Energies. Thermal strains enter the strain energy and are not among the loads f.
+  /// @{
+  double energy        = 0.; ///< potential energy: strain energy - f'u
+  double compliance    = 0.; ///< f'u
+  double strain_energy = 0.; ///< elastic energy: 1/2 u'Ku without thermal strains
+  /// @}
+  dealii::Tensor<1, dim> contact_force;          ///< on the slave sides [force]
+  double                 contact_area      = 0.; ///< area of active rows
   double                 max_pressure      = 0.;
   unsigned int           active_contacts   = 0;
   unsigned int           weak_contacts     = 0;

@@ -91,6 +91,18 @@ public:
   std::vector<std::vector<double>> reactions(const double               *owned_lambda,
                                              const RowCoefficients<dim> &rows) const;
 
+  /// @name Springs, in the order of RowCoefficients::springs
+  /// @{
+  /// Return D = 1 / (nr^2 kappa) of the owned rows, zero for other rows; empty without springs. The
+  /// equations of the rows are B u - D lambda = g.
+  std::vector<double> compliances(const RowCoefficients<dim> &rows) const;
+  /// Return the derivatives D'.
+  std::vector<double> compliance_derivatives(const RowCoefficients<dim> &rows,
+                                             const RowCoefficients<dim> &derivative) const;
+  /// Return the forces lambda / nr = kappa (c . u) of all springs [force]. Collective.
+  std::vector<double> spring_forces(const double *owned_lambda) const;
+  /// @}
+
   /// Return the contact row of each owned row, counting normal rows and then tangential rows, or
   /// the number of all contact rows for the other rows.
   const std::vector<unsigned int> &contact_of_row() const { return owned_contact; }

@@ -5,6 +5,7 @@
 #include <snug/feti/row_layout.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/tearing.h>
+#include <snug/state/springs.h>
 #include <snug/supports/dirichlet_constraints.h>
 
 #include <map>
@@ -19,6 +20,7 @@ struct RowCoefficients
   std::vector<contact::Row<dim>>              contact;
   std::vector<contact::Row<dim>>              tangents; ///< tangential rows of contacts
   std::vector<supports::ConstraintFrame<dim>> held;     ///< per held node
+  std::vector<SpringRow<dim>>                 springs = {};
 
   /// @name Normal rows, then tangential rows
   /// @{
@@ -55,6 +57,7 @@ public:
   {
     constant, ///< no quantity
     contact,  ///< coefficient `item` of RowCoefficients::row(`index`)
+    spring,   ///< coefficient `item` of RowCoefficients::springs[`index`]
     held      ///< direction `item` of held node `index`
   };
 
@@ -92,8 +95,9 @@ public:
   std::unique_ptr<feti::RowLayout> layout;
   std::vector<std::vector<Entry>>  entries; ///< per subdomain
   std::vector<OwnedRow>            owned;
-  std::vector<double>              scales; ///< nr per RowCoefficients::row(), or 0
-  std::vector<unsigned int>        copies; ///< per surface node
+  std::vector<double>              scales;        ///< nr per RowCoefficients::row(), or 0
+  std::vector<double>              spring_scales; ///< nr per RowCoefficients::springs
+  std::vector<unsigned int>        copies;        ///< per surface node
   /// held node of each surface node, or held.n_nodes()
   std::vector<unsigned int> held_of_surface;
   unsigned int              n_global = 0;
@@ -109,15 +113,18 @@ private:
   void   collect_surface(const mesh::Tearing &tearing);
   void   scale_rows(const RowCoefficients<dim>          &reference,
                     const std::vector<contact::Tangent> &tangents);
-  Copies collect_copies(const mesh::Tearing             &tearing,
-                        const std::vector<unsigned int> &rank_of_contact) const;
+  Copies collect_copies(const mesh::Tearing                        &tearing,
+                        const std::map<unsigned int, unsigned int> &rank_of_node) const;
   void   number_node_rows(const Copies               &nodes,
                           const RowCoefficients<dim> &reference,
                           std::vector<Message>       &messages);
-  void   number_contact_rows(const Copies                    &nodes,
-                             const RowCoefficients<dim>      &reference,
-                             const std::vector<unsigned int> &rank_of_contact,
-                             std::vector<Message>            &messages);
+  void   number_contact_rows(const Copies                               &nodes,
+                             const RowCoefficients<dim>                 &reference,
+                             const std::map<unsigned int, unsigned int> &rank_of_node,
+                             std::vector<Message>                       &messages);
+  void   number_spring_rows(const Copies               &nodes,
+                            const RowCoefficients<dim> &reference,
+                            std::vector<Message>       &messages);
   void   send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
   const mesh::BodyMesh<dim>                 &mesh;

@@ -8,6 +8,7 @@
 #include <snug/feti/feti_parameters.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/qp/solver.h>
+#include <snug/supports/spring.h>
 #include <snug/supports/support.h>
 
 #include <deal.II/base/exceptions.h>
@@ -30,6 +31,19 @@ struct BodyModel
   }
 };
 
+/// Dead force at a point of a boundary, or per length along a line on it. Places are reference
+/// positions; the loads stay on the material points there.
+template <int dim>
+struct PlacedForce
+{
+  dealii::Tensor<1, dim>            force; ///< [force], along a line [force / length]
+  dealii::Point<dim>                from;  ///< the point, or the first end of the line
+  std::optional<dealii::Point<dim>> to;    ///< the other end of the line
+  /// index of the boundary of the body whose common edge with the loaded one is the line
+  std::optional<unsigned int> along;
+  std::string                 name; ///< as the user wrote it, for messages
+};
+
 /// Dead loads on one boundary. Pressure and traction [force / length^2] are functions of the
 /// reference position; empty functions stand for no load.
 template <int dim>
@@ -38,6 +52,7 @@ struct BoundaryLoad
   std::function<double(const dealii::Point<dim> &)>                 pressure;
   std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> traction;
   elasticity::Resultant<dim>                                        resultant;
+  std::vector<PlacedForce<dim>>                                     concentrated = {};
 
   bool has_resultant() const { return resultant.force.norm() > 0. || resultant.moment.norm() > 0.; }
 };
@@ -48,8 +63,10 @@ struct BodyLoads
 {
   /// [force / length^3], function of the reference position; empty: none
   std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> body_force;
-  dealii::Tensor<1, dim>                                            gravity; ///< [length / time^2]
-  std::map<unsigned int, BoundaryLoad<dim>>                         boundaries; ///< by boundary
+  /// temperature above that of the unstressed body, function of the reference position; empty: none
+  std::function<double(const dealii::Point<dim> &)> temperature;
+  dealii::Tensor<1, dim>                            gravity;    ///< [length / time^2]
+  std::map<unsigned int, BoundaryLoad<dim>>         boundaries; ///< by boundary
 };
 
 template <int dim>
@@ -70,6 +87,7 @@ struct Model
   std::vector<BodyModel<dim>>         bodies;
   std::vector<LoadCase<dim>>          load_cases; ///< at least one
   std::vector<supports::Support<dim>> supports;
+  std::vector<supports::Spring<dim>>  springs;
   std::vector<contact::Pair>          pairs;
   /// minimum of a cell; meshes and designs with a cell below it are rejected
   double               least_scaled_jacobian = 0.;

@@ -69,7 +69,9 @@ public:
   std::vector<elasticity::Element<dim>>                elements; ///< per body
   elasticity::FaceLoad<dim>                            face_load;
   ResultantLoads<dim>                                  resultants;
+  ConcentratedLoads<dim>                               concentrated;
   mesh::Surface<dim>                                   surface;
+  Springs<dim>                                         springs;
   std::unique_ptr<supports::DirichletConstraints<dim>> held;
   std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
   std::vector<feti::SubdomainSystem>                   systems;

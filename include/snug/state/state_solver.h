@@ -99,7 +99,9 @@ public:
   row_derivatives(const Field &positions, const Field &velocity, unsigned int load_case) const;
   /// @}
 
-  const ResultantLoads<dim> &resultants() const { return problem->resultants; }
+  const ResultantLoads<dim>    &resultants() const { return problem->resultants; }
+  const ConcentratedLoads<dim> &concentrated() const { return problem->concentrated; }
+  const Springs<dim>           &springs() const { return problem->springs; }
   /// Return f of a load case at @p positions. Collective.
   feti::PrimalVectors              loads(const Field &positions, unsigned int load_case) const;
   const elasticity::FaceLoad<dim> &face_load() const { return problem->face_load; }

@@ -93,6 +93,14 @@ TEST(FrictionGradient, Mortar3D)
   check(scene);
 }
 
+TEST(FrictionGradient, OnSprings)
+{
+  auto scene                                 = pushed_punch<2>(12, contact::Method::nodal);
+  scene.bodies[1].supports[face_index(1, 0)] = {0};
+  scene.bodies[1].springs[face_index(1, 0)]  = {{1, 20000.}};
+  check(scene);
+}
+
 /// Derivatives at fixed limits of the friction forces, as under the Tresca law, are wrong.
 TEST(FrictionGradient, LimitsFollowTheNormalForces)
 {

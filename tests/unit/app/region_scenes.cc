@@ -38,7 +38,7 @@ subsection Body bar
 
 std::string of_file(const std::string &name)
 {
-  return bar("set Mesh = file\nset Mesh file = " SNUG_MESHES + name);
+  return bar("set Mesh = file\nset File = " SNUG_MESHES + name);
 }
 
 std::string of_formulas(unsigned int dim)

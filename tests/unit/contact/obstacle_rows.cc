@@ -1,3 +1,5 @@
+#include <snug/geometry/face_list.h>
+
 #include <gtest/gtest.h>
 
 #include "row_checks.h"
@@ -173,8 +175,9 @@ TEST(Contact, PairsOfTheSameFacesAreOneContact)
 
 TEST(Pair, SidesNameSeveralFaces)
 {
-  EXPECT_EQ(faces_of_side("a.nose + a.fillet"), (std::vector<std::string>{"a.nose", "a.fillet"}));
-  EXPECT_EQ(faces_of_side("a.c+d"), std::vector<std::string>{"a.c+d"});
+  EXPECT_EQ(geometry::face_list("a.nose + a.fillet"),
+            (std::vector<std::string>{"a.nose", "a.fillet"}));
+  EXPECT_EQ(geometry::face_list("a.c+d"), std::vector<std::string>{"a.c+d"});
   Side side(1, 4);
   side.add({1, 2});
   side.add({1, 4});

@@ -100,6 +100,22 @@ TYPED_TEST(FaceLoads, TractionActsOnTributaryAreas)
     EXPECT_LT((f[a] - areas[a] * t).norm(), 1e-14);
 }
 
+/// A force at a point and one along a piece of a line.
+template <int dim>
+std::vector<ConcentratedForce<dim>> concentrated(unsigned int                  degree,
+                                                 const dealii::Tensor<1, dim> &t)
+{
+  dealii::Point<dim - 1>     xi;
+  dealii::Tensor<1, dim - 1> piece;
+  for (unsigned int i = 0; i < dim - 1; ++i)
+    {
+      xi[i]    = 0.3 + 0.4 * i;
+      piece[i] = 0.2 - 0.5 * i;
+    }
+  const auto shape = snug::mesh::lagrange_point<dim - 1>(degree, xi);
+  return {{shape, 2. * t}, {shape, t, piece}};
+}
+
 TYPED_TEST(FaceLoads, DerivativeAgreesWithDifferences)
 {
   constexpr int dim = TestFixture::dim;
@@ -109,8 +125,9 @@ TYPED_TEST(FaceLoads, DerivativeAgreesWithDifferences)
         {
           const FaceLoad<dim>       load(TestFixture::degree, idealization);
           const auto                X = this->face(idealization);
-          const FaceLoadValues<dim> values{pressure, traction, {}};
-          Nodes<dim>                found;
+          const FaceLoadValues<dim> values{
+            pressure, traction, {}, concentrated<dim>(TestFixture::degree, this->traction[0])};
+          Nodes<dim> found;
           load.force_derivative(X, this->V, values, {}, found);
           const auto expected = derivative<dim>(
             [&](const Nodes<dim> &X) {
@@ -131,7 +148,10 @@ TYPED_TEST(FaceLoads, GradientIsTheTransposeOfTheDerivative)
     {
       const FaceLoad<dim>       load(TestFixture::degree, idealization);
       const auto                X = this->face(idealization);
-      const FaceLoadValues<dim> values{this->pressure, this->traction, {}};
+      const FaceLoadValues<dim> values{this->pressure,
+                                       this->traction,
+                                       {},
+                                       concentrated<dim>(TestFixture::degree, this->traction[0])};
       Nodes<dim>                f;
       load.force_derivative(X, this->V, values, {}, f);
       Nodes<dim> gradient(X.size());

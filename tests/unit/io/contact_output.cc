@@ -70,12 +70,12 @@ void expect_contact_faces(unsigned int degree)
 {
   const test::ScratchDirectory scratch;
   const ContactScene<dim>      scene(degree);
-  io::ContactOutput<dim>       output(scratch.path, {});
+  io::ContactOutput<dim>       output(scratch.path, {}, {"lower", "upper"});
   output.write(scene.sources(), 0., scene.state);
   if (!scratch.is_first())
     return;
 
-  const auto vtu = test::read_vtu(test::read_file(scratch.file("contact-0000.vtu")));
+  const auto vtu = test::read_blocks(scratch.file("contact-0000"), ".vtu");
   EXPECT_EQ(vtu.n_cells, scene.surface.faces().size() * std::lround(std::pow(degree, dim - 1)));
   const auto at = [&](const std::string &name, unsigned int p) {
     return vtu.arrays.at(name)[p * vtu.components.at(name)];
@@ -121,12 +121,12 @@ TEST(ContactOutput, NodesWithoutARowShowTheMeanOfThoseThatActForThem)
   scene.places.pop_back();
   scene.state.contact.pop_back();
   scene.shared.push_back({node, {{0, 0.25}, {1, 0.75}}});
-  io::ContactOutput<2> output(scratch.path, {});
+  io::ContactOutput<2> output(scratch.path, {}, {"lower", "upper"});
   output.write(scene.sources(), 0., scene.state);
   const auto x = scene.surface.gather(scene.state.positions)[node];
   if (!scratch.is_first())
     return;
-  const auto   vtu = test::read_vtu(test::read_file(scratch.file("contact-0000.vtu")));
+  const auto   vtu = test::read_blocks(scratch.file("contact-0000"), ".vtu");
   const double mean =
     0.25 * scene.state.contact[0].pressure + 0.75 * scene.state.contact[1].pressure;
   unsigned int found = 0;
@@ -144,7 +144,7 @@ TEST(ContactOutput, TableReadsBackBitForBit)
 {
   const test::ScratchDirectory scratch;
   const ContactScene<3>        scene(1);
-  io::ContactOutput<3>         output(scratch.path, {});
+  io::ContactOutput<3>         output(scratch.path, {}, {"lower", "upper"});
   output.write(scene.sources(), 0., scene.state);
   output.write(scene.sources(), 5., scene.state);
   const auto x = scene.surface.gather(scene.state.positions);
@@ -152,25 +152,49 @@ TEST(ContactOutput, TableReadsBackBitForBit)
     return;
   const auto table = test::read_csv(test::read_file(scratch.file("contact-0001.csv")));
   ASSERT_EQ(table.size(), scene.state.contact.size() + 1);
-  EXPECT_EQ(table[0], (std::vector<std::string>{"pair", "x", "y", "z", "force", "pressure", "gap",
-                                                "area", "active", "weak"}));
+  EXPECT_EQ(table[0],
+            (std::vector<std::string>{"pair", "x", "y", "z", "normal_x", "normal_y", "normal_z",
+                                      "force", "pressure", "gap", "area", "active", "weak"}));
   for (unsigned int i = 0; i < scene.state.contact.size(); ++i)
     {
       const auto &fields = table[i + 1];
       const auto &point  = scene.state.contact[i];
-      ASSERT_EQ(fields.size(), 10u);
+      ASSERT_EQ(fields.size(), 13u);
       for (unsigned int c = 0; c < 3; ++c)
         EXPECT_EQ(std::stod(fields[1 + c]), x[scene.places[i].slave][c]);
-      EXPECT_EQ(std::stod(fields[4]), point.force);
-      EXPECT_EQ(std::stod(fields[5]), point.pressure);
-      EXPECT_EQ(std::stod(fields[6]), point.gap);
-      EXPECT_EQ(std::stod(fields[7]), point.area);
-      EXPECT_EQ(fields[8], point.active ? "1" : "0");
-      EXPECT_EQ(fields[9], point.weak ? "1" : "0");
+      for (unsigned int c = 0; c < 3; ++c) // of the bottom of a box
+        EXPECT_NEAR(std::stod(fields[4 + c]), c == 2 ? -1. : 0., 1e-14);
+      EXPECT_EQ(std::stod(fields[7]), point.force);
+      EXPECT_EQ(std::stod(fields[8]), point.pressure);
+      EXPECT_EQ(std::stod(fields[9]), point.gap);
+      EXPECT_EQ(std::stod(fields[10]), point.area);
+      EXPECT_EQ(fields[11], point.active ? "1" : "0");
+      EXPECT_EQ(fields[12], point.weak ? "1" : "0");
     }
   const auto pvd = test::read_file(scratch.file("contact.pvd"));
   EXPECT_EQ(test::count(pvd, "<DataSet"), 2u);
   EXPECT_NE(pvd.find("timestep=\"5\""), std::string::npos);
+}
+
+/// The nodes along the bottom of a body in 2D, whose body lies on the left.
+TEST(ContactOutput, TableFollowsTheFaceInThePlane)
+{
+  const test::ScratchDirectory scratch;
+  const ContactScene<2>        scene(2);
+  io::ContactOutput<2>         output(scratch.path, {}, {"lower", "upper"});
+  output.write(scene.sources(), 0., scene.state);
+  if (!scratch.is_first())
+    return;
+  const auto table = test::read_csv(test::read_file(scratch.file("contact-0000.csv")));
+  ASSERT_EQ(table.size(), scene.state.contact.size() + 1);
+  ASSERT_EQ(table[0][5], "arc_length");
+  const double begin = std::stod(table[1][1]) - std::stod(table[1][5]);
+  for (unsigned int i = 1; i < table.size(); ++i)
+    {
+      EXPECT_NEAR(std::stod(table[i][1]) - begin, std::stod(table[i][5]), 1e-14);
+      if (i > 1)
+        EXPECT_GT(std::stod(table[i][5]), std::stod(table[i - 1][5]));
+    }
 }
 
 TEST(ContactOutput, WithoutPairsIsEmptyButValid)
@@ -181,7 +205,7 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
   const std::vector<contact::JoinedPair> pairs;
   const std::vector<contact::RowPlace>   places;
   const std::vector<contact::DependentMultiplier> shared;
-  io::ContactOutput<2>                            output(scratch.path, {});
+  io::ContactOutput<2>                            output(scratch.path, {}, {"lower", "upper"});
   state::ContactState<2>                          state;
   state.positions    = mesh.reference_positions();
   state.displacement = mesh.reference_positions();
@@ -189,7 +213,7 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
                state);
   if (!scratch.is_first())
     return;
-  EXPECT_EQ(test::read_vtu(test::read_file(scratch.file("contact-0000.vtu"))).n_points, 0u);
+  EXPECT_EQ(test::count(test::read_file(scratch.file("contact-0000.vtm")), "<DataSet"), 0u);
 }
 } // namespace
 } // namespace snug

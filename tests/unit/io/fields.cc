@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "boxes.h"
@@ -37,13 +38,13 @@ struct Bodies
 
   typename io::FieldOutput<dim>::Sources sources() const
   {
-    return {mesh, tearing, models, position};
+    return {mesh, tearing, models, load_case};
   }
 
   const mesh::BodyMesh<dim>                mesh;
   const mesh::Tearing                      tearing;
   const std::vector<state::BodyModel<dim>> models;
-  contact::Position<dim>                   position;
+  state::LoadCase<dim>                     load_case;
 };
 
 scene::OutputParameters a_file_per_rank()
@@ -53,11 +54,15 @@ scene::OutputParameters a_file_per_rank()
   return parameters;
 }
 
-std::string piece_of_rank(const std::string &stem)
+const std::vector<std::string> names = {"lower", "upper"};
+
+/// The first state of the bodies on this rank.
+test::Vtu bodies_of_rank(const test::ScratchDirectory &scratch)
 {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return stem + ".000" + std::to_string(rank) + ".vtu";
+  return test::read_blocks(scratch.file("solution-0000"), "." + io::padded(rank, 4) + ".vtu",
+                           {0, 2});
 }
 
 /// Component @p c of array @p name at @p point.
@@ -66,20 +71,37 @@ double entry(const test::Vtu &vtu, const std::string &name, unsigned int point, 
   return vtu.arrays.at(name)[point * vtu.components.at(name) + c];
 }
 
+/// The principal stresses are ordered and have the invariants of the stress.
+void expect_principal_stress(const test::Vtu            &vtu,
+                             const unsigned int          point,
+                             const dealii::Tensor<2, 3> &sigma)
+{
+  double principal[3];
+  for (unsigned int c = 0; c < 3; ++c)
+    principal[c] = entry(vtu, "principal_stress", point, c);
+  EXPECT_GE(principal[0], principal[1]);
+  EXPECT_GE(principal[1], principal[2]);
+  EXPECT_NEAR(principal[0] + principal[1] + principal[2], trace(sigma), 1e-5);
+  EXPECT_NEAR(std::hypot(principal[0], principal[1], principal[2]), sigma.norm(), 1e-5);
+  // relative to the product of the factors' sizes
+  EXPECT_NEAR(principal[0] * principal[1] * principal[2], determinant(sigma),
+              1e-6 * std::pow(sigma.norm(), 3));
+}
+
 /// The fields of a state whose displacement is linear, with body 1 moved by @p motion.
 template <int dim>
 void expect_linear_fields(unsigned int degree, const geometry::RigidMotion<dim> &motion = {})
 {
   const test::ScratchDirectory scratch;
   Bodies<dim>                  bodies(true, degree);
-  bodies.position.bodies[1]      = motion;
-  const auto           materials = test::two_materials();
-  io::FieldOutput<dim> output(scratch.path, a_file_per_rank());
+  bodies.load_case.position.bodies[1] = motion;
+  const auto           materials      = test::two_materials();
+  io::FieldOutput<dim> output(scratch.path, a_file_per_rank(), names);
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
 
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+  const auto vtu = bodies_of_rank(scratch);
   EXPECT_EQ(vtu.n_cells, bodies.mesh.cells().size() * std::lround(std::pow(degree, dim)));
   const auto A = test::displacement_gradient<dim>();
   for (unsigned int p = 0; p < vtu.n_points; ++p)
@@ -113,8 +135,10 @@ void expect_linear_fields(unsigned int degree, const geometry::RigidMotion<dim> 
           Q[c][d] = to_space.Q[c][d];
       const auto sigma =
         Q * test::hooke(materials[std::lround(entry(vtu, "body", p))], A) * transpose(Q);
-      for (unsigned int c = 0; c < 9; ++c)
-        EXPECT_NEAR(entry(vtu, "stress", p, c), sigma[c / 3][c % 3], 1e-5);
+      const unsigned int row[] = {0, 1, 2, 0, 1, 0}, column[] = {0, 1, 2, 1, 2, 2};
+      for (unsigned int c = 0; c < 6; ++c)
+        EXPECT_NEAR(entry(vtu, "stress", p, c), sigma[row[c]][column[c]], 1e-5);
+      expect_principal_stress(vtu, p, sigma);
       auto deviator = sigma;
       for (unsigned int i = 0; i < 3; ++i)
         deviator[i][i] -= trace(sigma) / 3.;
@@ -148,9 +172,9 @@ TEST(FieldOutput, CellsShareTheirPoints)
 {
   const test::ScratchDirectory scratch;
   const Bodies<2>              bodies(false, 2);
-  io::FieldOutput<2>           output(scratch.path, a_file_per_rank());
+  io::FieldOutput<2>           output(scratch.path, a_file_per_rank(), names);
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
-  const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+  const auto             vtu = bodies_of_rank(scratch);
   std::set<unsigned int> nodes;
   for (const auto &cell : bodies.mesh.cells())
     nodes.insert(cell.nodes.begin(), cell.nodes.end());
@@ -162,16 +186,17 @@ TEST(FieldOutput, WritesWhatIsAskedForAtAnyCompression)
   const Bodies<2> bodies(false, 1);
   const auto      written = [&](const scene::OutputParameters &parameters) {
     const test::ScratchDirectory scratch;
-    io::FieldOutput<2>           output(scratch.path, parameters);
+    io::FieldOutput<2>           output(scratch.path, parameters, names);
     output.write(bodies.sources(), 0., linear_state(bodies.mesh));
-    return test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+    return bodies_of_rank(scratch);
   };
   const auto all = written(a_file_per_rank());
   for (const unsigned int level : {0, 9})
     EXPECT_EQ(written({Verbosity::normal, scene::OutputParameters().fields, level, 1}).arrays,
               all.arrays);
   auto few = all.arrays;
-  for (const char *name : {"stress", "region", "subdomain", "design_displacement"})
+  for (const char *name :
+       {"stress", "principal_stress", "region", "subdomain", "design_displacement"})
     few.erase(name);
   EXPECT_EQ(written({Verbosity::normal, {"von_mises"}, 1, 1}).arrays, few);
 }
@@ -180,27 +205,32 @@ TEST(FieldOutput, ListsTimesAndPieces)
 {
   const test::ScratchDirectory scratch;
   const Bodies<2>              bodies(false, 1);
-  io::FieldOutput<2>           output(scratch.path, a_file_per_rank());
+  io::FieldOutput<2>           output(scratch.path, a_file_per_rank(), names);
   output.write(bodies.sources(), 0., linear_state(bodies.mesh));
   output.write(bodies.sources(), 17., linear_state(bodies.mesh));
   MPI_Barrier(MPI_COMM_WORLD);
 
   const std::string pvd  = test::read_file(scratch.file("solution.pvd"));
   const std::string pvtu = test::read_file(scratch.file("solution-0001.pvtu"));
-  int               size;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
   EXPECT_NE(pvd.find("timestep=\"0\""), std::string::npos);
   EXPECT_NE(pvd.find("timestep=\"17\""), std::string::npos);
-  EXPECT_NE(pvd.find("file=\"solution-0001.pvtu\""), std::string::npos);
-  EXPECT_EQ(test::count(pvtu, "<Piece Source=\"solution-0001."), size);
-  for (const char *name :
-       {"displacement", "stress", "von_mises", "body", "subdomain", "design_displacement"})
+  EXPECT_NE(pvd.find("file=\"solution-0001.vtm\""), std::string::npos);
+  // A file per body and rank with cells of the body, all of which are files of a block.
+  const std::string vtm = test::read_file(scratch.file("solution-0001.vtm"));
+  const auto        n   = test::count(pvtu, "<Piece Source=\"solution-0001/");
+  EXPECT_GE(n, 2);
+  EXPECT_EQ(test::count(vtm, "\"solution-0001/00-lower.") + test::count(vtm, "/01-upper.00"), n);
+  EXPECT_EQ(test::count(vtm, "<Piece"), 2 + 2 * 4); // bodies, boundaries of squares
+  for (const char *name : {"displacement", "stress", "von_mises", "principal_stress", "body",
+                           "subdomain", "design_displacement"})
     EXPECT_EQ(test::count(pvtu, std::string("Name=\"") + name + "\""), 1) << name;
 }
 
-/// Pieces are what is between the words that open and close the grid.
+/// Pieces are what is between the words that open and close the grid; none in a missing file.
 std::string pieces_of(const std::string &file)
 {
+  if (!std::filesystem::exists(file))
+    return "";
   const std::string text  = test::read_file(file);
   const auto        begin = text.find("<Piece");
   return text.substr(begin, text.find("</UnstructuredGrid>") - begin);
@@ -208,35 +238,69 @@ std::string pieces_of(const std::string &file)
 
 TEST(FieldOutput, RanksShareFiles)
 {
-  const test::ScratchDirectory scratch;
-  const Bodies<2>              bodies(false, 1);
-  const auto                   state = linear_state(bodies.mesh);
-  io::FieldOutput<2>           alone(scratch.path, a_file_per_rank());
-  alone.write(bodies.sources(), 0., state);
-  MPI_Barrier(MPI_COMM_WORLD);
-  int size;
+  const Bodies<2> bodies(false, 1);
+  const auto      state = linear_state(bodies.mesh);
+  int             size;
   MPI_Comm_size(MPI_COMM_WORLD, &size);
-  std::vector<std::string> of_rank;
-  for (int rank = 0; rank < size; ++rank)
-    of_rank.push_back(pieces_of(scratch.file("solution-0000." + io::padded(rank, 4) + ".vtu")));
-  MPI_Barrier(MPI_COMM_WORLD);
-  auto parameters           = a_file_per_rank();
-  parameters.ranks_per_file = 2;
-  io::FieldOutput<2> in_pairs(scratch.path, parameters);
-  in_pairs.write(bodies.sources(), 0., state);
-  MPI_Barrier(MPI_COMM_WORLD);
+  // The pieces of the body "lower" per file, and the number of files of both bodies.
+  const auto written = [&](const unsigned int ranks_per_file) {
+    const test::ScratchDirectory scratch;
+    auto                         parameters = a_file_per_rank();
+    parameters.ranks_per_file               = ranks_per_file;
+    io::FieldOutput<2> output(scratch.path, parameters, names);
+    output.write(bodies.sources(), 0., state);
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::vector<std::string> pieces;
+    for (int group = 0; group < size; ++group)
+      pieces.push_back(
+        pieces_of(scratch.file("solution-0000/00-lower." + io::padded(group, 4) + ".vtu")));
+    MPI_Barrier(MPI_COMM_WORLD);
+    return pieces;
+  };
+  const auto alone = written(1), in_pairs = written(2);
+  EXPECT_NE(alone[0] + alone.back(), "");
   for (int first = 0; first < size; first += 2)
-    EXPECT_EQ(pieces_of(scratch.file("solution-0000." + io::padded(first / 2, 4) + ".vtu")),
-              of_rank[first] + (first + 1 < size ? of_rank[first + 1] : ""));
-  EXPECT_EQ(test::count(test::read_file(scratch.file("solution-0000.pvtu")), "<Piece Source"),
-            (size + 1) / 2);
+    EXPECT_EQ(in_pairs[first / 2], alone[first] + (first + 1 < size ? alone[first + 1] : ""));
+}
+
+/// Boundaries have the points of their faces with the fields of their cells.
+TEST(FieldOutput, NamesBoundaries)
+{
+  const test::ScratchDirectory scratch;
+  const Bodies<3>              bodies(true, 2);
+  io::FieldOutput<3>           output(scratch.path, {}, names);
+  output.write(bodies.sources(), 0., linear_state(bodies.mesh));
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto all = test::read_blocks(scratch.file("solution-0000"), ".vtu", {2, 99});
+  EXPECT_EQ(all.n_cells,
+            4 * dealii::Utilities::MPI::sum(bodies.mesh.boundary_faces().size(), MPI_COMM_WORLD));
+  const auto A = test::displacement_gradient<3>();
+  for (unsigned int body = 0; body < 2; ++body)
+    for (const std::string boundary : {"left", "right", "front", "back", "bottom", "top"})
+      {
+        const auto vtu = test::read_blocks(scratch.file("solution-0000"),
+                                           names[body] + '.' + boundary + ".0000.vtu");
+        ASSERT_GT(vtu.n_points, 0u) << boundary;
+        const unsigned int   index = geometry::boundary_index(bodies.mesh.geometry(body), boundary);
+        std::set<float>      across;
+        dealii::Tensor<1, 3> x;
+        for (unsigned int p = 0; p < vtu.n_points; ++p)
+          {
+            for (unsigned int c = 0; c < 3; ++c)
+              x[c] = entry(vtu, "", p, c);
+            across.insert(entry(vtu, "", p, index / 2));
+            EXPECT_NEAR(entry(vtu, "displacement", p, 1), (A * x)[1], 2e-6);
+            EXPECT_EQ(entry(vtu, "body", p), body);
+          }
+        EXPECT_LT(*across.rbegin() - *across.begin(), 1e-6) << boundary;
+      }
 }
 
 TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
 {
   const test::ScratchDirectory scratch;
   const Bodies<2>              bodies(false, 1);
-  io::FieldOutput<2>           output(scratch.path, a_file_per_rank());
+  io::FieldOutput<2>           output(scratch.path, a_file_per_rank(), names);
   const auto                   state = linear_state(bodies.mesh);
   int                          rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -246,13 +310,13 @@ TEST(FieldOutput, AddsUpTheSharesOfTheShapeGradient)
     if (bodies.mesh.owner(node) != static_cast<unsigned int>(rank))
       share[node] = 0.;
   output.write(bodies.sources(), 0., state, &share);
-  const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+  const auto vtu = bodies_of_rank(scratch);
   for (unsigned int p = 0; p < vtu.n_points; ++p)
     for (unsigned int c = 0; c < 2; ++c)
       EXPECT_EQ(entry(vtu, "shape_gradient", p, c), entry(vtu, "displacement", p, c));
 }
 
-TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
+TEST(FieldOutput, RankWithoutCellsWritesNoFile)
 {
   const test::ScratchDirectory              scratch;
   std::vector<geometry::BodyMeshParameters> bodies(1);
@@ -261,16 +325,20 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
   std::vector<state::BodyModel<2>> models(1);
   models[0].materials        = {{1., 0.3}};
   const auto         tearing = test::one_subdomain_per_rank(mesh);
-  io::FieldOutput<2> output(scratch.path, a_file_per_rank());
+  io::FieldOutput<2> output(scratch.path, a_file_per_rank(), names);
   output.write({mesh, tearing, models, contact::Position<2>()}, 0., linear_state(mesh));
-  const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
+  MPI_Barrier(MPI_COMM_WORLD);
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const auto vtu =
+    test::read_blocks(scratch.file("solution-0000"), "." + io::padded(rank, 4) + ".vtu", {0, 1});
   EXPECT_EQ(vtu.n_cells, mesh.cells().size());
 }
 
 TEST(FieldOutput, EveryRankHearsOfFailure)
 {
   const Bodies<2>    bodies(false, 1);
-  io::FieldOutput<2> output("/nowhere/at/all", {});
+  io::FieldOutput<2> output("/nowhere/at/all", {}, names);
   EXPECT_THROW(output.write(bodies.sources(), 0., linear_state(bodies.mesh)), std::runtime_error);
 }
 } // namespace

@@ -15,6 +15,7 @@ io::HistoryLine line_of_history(unsigned int iteration)
 {
   io::HistoryLine line;
   line.iteration            = iteration;
+  line.evaluations          = 2 * iteration + 1;
   line.objective            = -1. / (3. + iteration);
   line.constraint_violation = std::nextafter(1e-9, 1.);
   line.projected_gradient   = 0.1 * iteration;
@@ -39,24 +40,25 @@ TEST(History, ReadsBackBitForBit)
       const auto table = test::read_csv(test::read_file(scratch.file("history.csv")));
       ASSERT_EQ(table.size(), i + 2); // complete after each line
       EXPECT_EQ(table[0],
-                (std::vector<std::string>{"iteration", "objective", "constraint_violation",
-                                          "projected_gradient", "active_contacts", "f_mults",
-                                          "scaled_jacobian", "seconds", "design_0", "design_1",
-                                          "tilted.peak"}));
+                (std::vector<std::string>{"iteration", "evaluations", "objective",
+                                          "constraint_violation", "projected_gradient",
+                                          "active_contacts", "f_mults", "scaled_jacobian",
+                                          "seconds", "design_0", "design_1", "tilted.peak"}));
       const auto &fields = table.back();
       const auto  line   = line_of_history(i);
       ASSERT_EQ(fields.size(), table[0].size());
       EXPECT_EQ(std::stoul(fields[0]), i);
-      EXPECT_EQ(std::stod(fields[1]), line.objective);
-      EXPECT_EQ(std::stod(fields[2]), line.constraint_violation);
-      EXPECT_EQ(std::stod(fields[3]), line.projected_gradient);
-      EXPECT_EQ(std::stoul(fields[4]), line.active_contacts);
-      EXPECT_EQ(std::stoul(fields[5]), line.f_mults);
-      EXPECT_EQ(std::stod(fields[6]), line.scaled_jacobian);
-      EXPECT_EQ(std::stod(fields[7]), line.seconds);
-      EXPECT_EQ(std::stod(fields[8]), line.design[0]);
-      EXPECT_EQ(std::stod(fields[9]), line.design[1]);
-      EXPECT_EQ(std::stod(fields[10]), line.values[0]);
+      EXPECT_EQ(std::stoul(fields[1]), line.evaluations);
+      EXPECT_EQ(std::stod(fields[2]), line.objective);
+      EXPECT_EQ(std::stod(fields[3]), line.constraint_violation);
+      EXPECT_EQ(std::stod(fields[4]), line.projected_gradient);
+      EXPECT_EQ(std::stoul(fields[5]), line.active_contacts);
+      EXPECT_EQ(std::stoul(fields[6]), line.f_mults);
+      EXPECT_EQ(std::stod(fields[7]), line.scaled_jacobian);
+      EXPECT_EQ(std::stod(fields[8]), line.seconds);
+      EXPECT_EQ(std::stod(fields[9]), line.design[0]);
+      EXPECT_EQ(std::stod(fields[10]), line.design[1]);
+      EXPECT_EQ(std::stod(fields[11]), line.values[0]);
     }
 }
 

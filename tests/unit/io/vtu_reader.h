@@ -9,10 +9,14 @@
 #include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "scratch.h"
 
 namespace snug::test {
 /// The points and float arrays of a VTU text as VTK's format defines them.
@@ -79,6 +83,33 @@ inline Vtu read_vtu(const std::string &text)
         decode_vtu_array(text.substr(end + 1, text.find("</DataArray>", end) - end - 1));
     }
   return vtu;
+}
+
+/// Return the grid of all files of blocks in the folder @p path whose names end with @p ending.
+/// @param[in] number The range of the numbers of the blocks.
+inline Vtu read_blocks(const std::string                    &path,
+                       const std::string                    &ending,
+                       std::pair<unsigned int, unsigned int> numbers = {0, 99})
+{
+  std::vector<std::string> files;
+  for (const auto &entry : std::filesystem::directory_iterator(path))
+    if (const auto name = entry.path().filename().string();
+        name.size() > ending.size() &&
+        name.compare(name.size() - ending.size(), ending.size(), ending) == 0 &&
+        std::stoul(name) >= numbers.first && std::stoul(name) < numbers.second)
+      files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  Vtu result;
+  for (const auto &file : files)
+    {
+      const auto block = read_vtu(read_file(file));
+      result.n_points += block.n_points;
+      result.n_cells += block.n_cells;
+      result.components = block.components;
+      for (const auto &[name, values] : block.arrays)
+        result.arrays[name].insert(result.arrays[name].end(), values.begin(), values.end());
+    }
+  return result;
 }
 } // namespace snug::test
 

@@ -15,6 +15,7 @@ mesh::CellSet<2> square(const unsigned int n, const double a)
     for (unsigned int i = 0; i < n * n; ++i)
       {
         set.numbers.push_back(i);
+        set.places.emplace_back(geometry::no_element, 1.);
         set.keys.push_back({{0, i}});
         if (i % n + 1 < n)
           {

@@ -2,6 +2,8 @@
 
 #include <snug/geometry/block_quality.h>
 
+#include <iomanip>
+
 using namespace snug;
 using namespace snug::test;
 using dealii::Point;
@@ -59,15 +61,29 @@ TEST(CurvedSurfaces, PlaneRegionsOfASmoothBoundaryStay)
 
 TEST(CurvedSurfaces, CoarseFacetsStayUnlessSmoothIsAskedFor)
 {
-  const auto grid = ellipse(20, 2., 2., true); // unequal, up to 28 degrees
+  const auto grid = ellipse(20, 2., 1.8, true); // unequal, up to 29 degrees
   auto       body = grid.body();
   EXPECT_TRUE(
     says(notes<2>(grid, body), "boundary top is kept faceted: neighbouring facets meet at up to"));
   EXPECT_TRUE(says(notes<2>(grid, body), "'Surface = top: smooth' makes it smooth"));
-  const auto circle = [](const Point<2> &x) { return x.distance(Point<2>(1., 2.)) - 2.; };
-  EXPECT_GT(error<2>(*make<2>(grid, body), circle), 1e-2);
+  const auto ellipse_of = [](const Point<2> &x) {
+    return std::hypot((x[0] - 1.) / 2., (x[1] - 2.) / 1.8) - 1.;
+  };
+  EXPECT_GT(error<2>(*make<2>(grid, body), ellipse_of), 1e-2);
   body.surfaces = {{"top", "smooth"}};
+  EXPECT_LT(error<2>(*make<2>(grid, body), ellipse_of), 2e-3);
+}
+
+TEST(CurvedSurfaces, CoarseFacetsOnACircleAreTheCircle)
+{
+  const auto grid = ellipse(20, 2., 2., true); // unequal, up to 28 degrees
+  auto       body = grid.body();
+  EXPECT_TRUE(says(notes<2>(grid, body), "boundary top is a circle of radius 2 ("));
+  EXPECT_TRUE(says(notes<2>(grid, body), "although neighbouring facets meet at up to"));
+  const auto circle = [](const Point<2> &x) { return x.distance(Point<2>(1., 2.)) - 2.; };
   EXPECT_LT(error<2>(*make<2>(grid, body), circle), 1e-14);
+  body.surfaces = {{"top", "facets"}};
+  EXPECT_GT(error<2>(*make<2>(grid, body), circle), 1e-2);
   for (const std::string value : {"round", ""})
     {
       body.surfaces = {{"top", value}};
@@ -142,7 +158,14 @@ TEST(CurvedSurfaces, ThinCellsAreNotTangled)
     return Point<3>(r * std::cos(phi), r * std::sin(phi), 0.);
   };
   const auto mesh = mesh_file::import_mesh(grid.text(), grid.body(), 2);
-  EXPECT_TRUE(says(mesh->notes, "straightened to keep thin cells valid"));
+  // The middles of the curves move from the circle at 1 towards the chords.
+  double distance = 0.;
+  for (const auto &[vertices, piece] : mesh->flat->pieces)
+    distance = std::max(distance, 1. - piece.patch->position({0.5, 0.}).norm());
+  std::ostringstream text;
+  text << std::setprecision(2) << distance;
+  EXPECT_TRUE(says(mesh->warnings, "curved edges and faces were moved towards straight ones"));
+  EXPECT_TRUE(says(mesh->warnings, "maximum distance from the true surface " + text.str()));
   for (const auto &block : mesh->flat->blocks)
     {
       const double straight = geometry::least_scaled_jacobian<2>(mesh->flat->vertices, block, {});

@@ -65,7 +65,7 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
   for (const auto &item : cases)
     {
       const auto message = failure_reason(item.text, numbered_body(), 3);
-      EXPECT_EQ(message.rfind("entry 'Mesh file' = 'the.mesh': ", 0), 0u) << message;
+      EXPECT_EQ(message.rfind("entry 'File' = 'the.mesh': ", 0), 0u) << message;
       EXPECT_NE(message.find(item.says), std::string::npos)
         << message << "\n  and not: " << item.says;
     }

@@ -311,6 +311,7 @@ TEST(Patch, RejectsFacesThatLieAboveThemselves)
     const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, bodies, 1);
     auto                    parameters = on_top<2>("Bezier patch", "block");
     parameters.interior                = shape::InteriorKind::Laplace;
+    parameters.coordinates             = shape::Coordinates::projection;
     shape::Shapes<2>(mesh, {{"block"}}, {parameters});
   };
   EXPECT_NO_THROW(make("0"));

@@ -26,6 +26,8 @@ struct TestBody
     double                     pressure = 0.;
     dealii::Tensor<1, dim>     traction;
     elasticity::Resultant<dim> resultant;
+    /// forces at points and along lines
+    std::vector<state::PlacedForce<dim>> concentrated = {};
     /// pressure and traction vary by this factor of the reference position
     std::function<double(const dealii::Point<dim> &)> factor = {};
   };
@@ -41,7 +43,11 @@ struct TestBody
   double                    core_from   = std::numeric_limits<double>::max();
   elasticity::Formulation   formulation = elasticity::Formulation::standard;
   dealii::Tensor<1, dim>    body_force;
-  Loads                     loads;
+  /// above the unstressed body, as a function of the reference position
+  std::function<double(const dealii::Point<dim> &)> temperature = {};
+  Loads                                             loads;
+  /// boundary -> (component or dim: the normal, stiffness per area)
+  std::map<unsigned int, std::vector<std::pair<unsigned int, double>>> springs;
   /// boundary -> fixed components, dim: the normal
   std::map<unsigned int, std::vector<unsigned int>> supports;
   /// prescribed displacements; the scene fills in the body
@@ -226,6 +232,7 @@ public:
     const auto            b = body.body_force;
     if (b.norm() > 0.)
       result.body_force = [b](const Point &) { return b; };
+    result.temperature = body.temperature;
     for (const auto &entry : loads)
       {
         const auto load   = entry.second;
@@ -234,6 +241,7 @@ public:
         of.pressure       = [=](const Point &x) { return factor(x) * load.pressure; };
         of.traction       = [=](const Point &x) { return factor(x) * load.traction; };
         of.resultant      = load.resultant;
+        of.concentrated   = load.concentrated;
       }
     return result;
   }
@@ -250,6 +258,15 @@ public:
         for (const auto &support : body.supports)
           for (const unsigned int component : support.second)
             model.supports.push_back({b, support.first, component, {}, "support"});
+        for (const auto &[boundary, springs] : body.springs)
+          for (const auto &[component, k] : springs)
+            model.springs.push_back({b,
+                                     boundary,
+                                     component,
+                                     [k = k](const dealii::Point<dim> &) { return k; },
+                                     {},
+                                     "spring",
+                                     "spring"});
         for (auto support : body.prescribed)
           {
             support.body = b;

@@ -94,6 +94,8 @@ private:
   void pin_slides();
   void collect_nodes();
   void place_nodes(const TestScene<dim> &scene, bool moved);
+  void add_springs(const dealii::MappingFEField<dim> &mapping,
+                   dealii::SparseMatrix<double>      &K) const;
   void add_loads(const dealii::MappingFEField<dim> &mapping, Vector &f) const;
 };
 
@@ -214,15 +216,16 @@ void UntornBody<dim>::place_nodes(const TestScene<dim> &scene, bool moved)
 template <int dim>
 void UntornBody<dim>::assemble(dealii::SparseMatrix<double> &K, Vector &f) const
 {
-  const dealii::MappingFEField<dim>            mapping(handler, positions);
-  const dealii::QGauss<dim>                    quadrature(fe.degree + 1);
-  dealii::FEValues<dim>                        values(mapping, fe, quadrature,
-                                                      dealii::update_gradients | dealii::update_values |
-                                                        dealii::update_JxW_values);
-  const dealii::FEValuesExtractors::Vector     u(0);
-  const unsigned int                           n = fe.n_dofs_per_cell();
-  dealii::FullMatrix<double>                   cell_matrix(n, n);
-  Vector                                       cell_load(n);
+  const dealii::MappingFEField<dim>        mapping(handler, positions);
+  const dealii::QGauss<dim>                quadrature(fe.degree + 1);
+  dealii::FEValues<dim>                    values(mapping, fe, quadrature,
+                                                  dealii::update_gradients | dealii::update_values |
+                                                    dealii::update_JxW_values);
+  const dealii::FEValuesExtractors::Vector u(0);
+  dealii::FEValues<dim>      flat_values(fe, quadrature, dealii::update_quadrature_points);
+  const unsigned int         n = fe.n_dofs_per_cell();
+  dealii::FullMatrix<double> cell_matrix(n, n);
+  Vector                     cell_load(n);
   std::vector<dealii::types::global_dof_index> dofs(n);
   K.reinit(pattern);
   f.reinit(n_dofs());
@@ -232,6 +235,7 @@ void UntornBody<dim>::assemble(dealii::SparseMatrix<double> &K, Vector &f) const
       const double nu = material(cell).poissons_ratio;
       const double mu = E / (2. * (1. + nu)), la = 2. * mu * nu / (1. - 2. * nu);
       values.reinit(cell);
+      flat_values.reinit(cell);
       cell_matrix = 0.;
       cell_load   = 0.;
       for (const unsigned int q : values.quadrature_point_indices())
@@ -239,6 +243,11 @@ void UntornBody<dim>::assemble(dealii::SparseMatrix<double> &K, Vector &f) const
           {
             const auto e_i = values[u].symmetric_gradient(i, q);
             cell_load(i) += values[u].value(i, q) * body.body_force * values.JxW(q);
+            // the stress that holds the thermal strain; the reference of the body is flat
+            if (body.temperature)
+              cell_load(i) += E / (1. - 2. * nu) * material(cell).expansion *
+                              body.temperature(flat_values.quadrature_point(q)) * trace(e_i) *
+                              values.JxW(q);
             for (unsigned int j = 0; j < n; ++j)
               {
                 const auto e_j = values[u].symmetric_gradient(j, q);
@@ -250,6 +259,36 @@ void UntornBody<dim>::assemble(dealii::SparseMatrix<double> &K, Vector &f) const
       constraints.distribute_local_to_global(cell_matrix, cell_load, dofs, K, f);
     }
   add_loads(mapping, f);
+  add_springs(mapping, K);
+}
+
+template <int dim>
+void UntornBody<dim>::add_springs(const dealii::MappingFEField<dim> &mapping,
+                                  dealii::SparseMatrix<double>      &K) const
+{
+  dealii::FEFaceValues<dim>  values(mapping, fe, dealii::QGauss<dim - 1>(fe.degree + 1),
+                                    dealii::update_values | dealii::update_JxW_values);
+  const unsigned int         n = fe.n_dofs_per_cell();
+  dealii::FullMatrix<double> matrix(n, n);
+  std::vector<dealii::types::global_dof_index> dofs(n);
+  for (const auto &cell : handler.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      {
+        if (!cell->at_boundary(face) || body.springs.count(cell->face(face)->boundary_id()) == 0)
+          continue;
+        values.reinit(cell, face);
+        matrix = 0.;
+        for (const auto &[component, k] : body.springs.at(cell->face(face)->boundary_id()))
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              if (fe.system_to_component_index(i).first == component &&
+                  fe.system_to_component_index(j).first == component)
+                for (const unsigned int q : values.quadrature_point_indices())
+                  matrix(i, j) +=
+                    k * values.shape_value(i, q) * values.shape_value(j, q) * values.JxW(q);
+        cell->get_dof_indices(dofs);
+        constraints.distribute_local_to_global(matrix, dofs, K);
+      }
 }
 
 template <int dim>

@@ -1,0 +1,71 @@
+"""Read profile.step by the program gmsh, and evaluate patches of cylinders without Snug."""
+
+import csv
+import math
+import pathlib
+import subprocess
+import tempfile
+
+
+def step_nodes(path, size):
+    """Return the nodes of Gmsh's mesh of the faces of a STEP file. The nodes lie on the surfaces as
+    OpenCASCADE has read them; elements have at most the size @p size."""
+    with tempfile.TemporaryDirectory() as folder:
+        script, mesh = pathlib.Path(folder, "faces.geo"), pathlib.Path(folder, "faces.msh")
+        script.write_text('SetFactory("OpenCASCADE");\n'
+                          f'faces() = ShapeFromFile("{pathlib.Path(path).resolve()}");\n'
+                          f"Mesh.CharacteristicLengthMax = {size};\n", encoding="utf-8")
+        subprocess.run(["gmsh", "-2", "-nopopup", "-v", "1", "-format", "msh2", script, "-o", mesh],
+                       check=True, capture_output=True, timeout=120)
+        lines = mesh.read_text(encoding="utf-8").splitlines()
+    first = lines.index("$Nodes") + 2
+    return [tuple(map(float, line.split()[1:]))
+            for line in lines[first:first + int(lines[first - 1])]]
+
+
+def face_names(path):
+    """Return the names of the faces of a STEP file."""
+    text = pathlib.Path(path).read_text(encoding="utf-8").replace("\n", "")
+    return [part.split("'")[1] for part in text.split("ADVANCED_FACE(")[1:]]
+
+
+def spline(points, degree, s):
+    """Return the value at s of clamped B-splines with uniform knots, by de Boor's algorithm."""
+    spans = len(points) - degree
+    knots = [0.] * degree + [k / spans for k in range(spans + 1)] + [1.] * degree
+    k = min(int(s * spans), spans - 1) + degree
+    values = points[k - degree:k + 1]
+    for r in range(1, degree + 1):
+        for j in range(degree, r - 1, -1):
+            left, right = knots[j + k - degree], knots[j + 1 + k - r]
+            part = (s - left) / (right - left)
+            values[j] = (1 - part) * values[j - 1] + part * values[j]
+    return values[degree]
+
+
+class Crown:
+    """The crown of a cylinder about the axis (0, z_axis) along x: heights over 0 <= x <= length,
+    even in x, of the control points in control-points.csv."""
+
+    def __init__(self, directory, radius, z_axis, length, degree=3):
+        self.radius, self.z_axis, self.length, self.degree = radius, z_axis, length, degree
+        with open(pathlib.Path(directory, "control-points.csv"), newline="",
+                  encoding="utf-8") as file:
+            rows = [{name: float(row[name]) for name in
+                     ("dy", "dz", "y", "z")} for row in csv.DictReader(file)]
+        heights = []
+        for row in rows:
+            y, z = row["y"] - row["dy"], row["z"] - row["dz"] - z_axis
+            heights.append((row["dy"] * y + row["dz"] * z) / math.hypot(y, z))
+        self.points = heights[:0:-1] + heights
+
+    def height(self, x):
+        return spline(self.points, self.degree, (1 + x / self.length) / 2)
+
+    def drop(self, x):
+        return self.height(0) - self.height(x)
+
+    def deviation(self, nodes):
+        """Return the maximum distance of nodes from the crowned cylinder along its radius."""
+        return max(abs(math.hypot(y, z - self.z_axis) - self.radius - self.height(x))
+                   for x, y, z in nodes)

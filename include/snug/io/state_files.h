@@ -1,0 +1,38 @@
+#ifndef snug_io_state_files_h
+#define snug_io_state_files_h
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace snug::io {
+/// A named part of a state: a body, or a boundary of a body.
+struct Block
+{
+  std::string group; ///< "bodies" or "boundaries"
+  std::string name;  ///< "punch" or "punch.bottom"
+  std::string piece; ///< VTU text of the cells of this rank; empty if this rank has no cell
+};
+
+/**
+ * Write one state of a series into @p directory, for ParaView:
+ *
+ * - STEM/NUMBER-NAME.RANKS.vtu contains the cells of one block on one group of ranks,
+ * - STEM.vtm names all blocks as group, then name,
+ * - STEM.pvtu joins the blocks of the first group to one grid.
+ *
+ * The blocks are the same on all ranks except for their pieces. Collective.
+ * @param[in] arrays VtuGrid::declarations() of the blocks.
+ * @param[in] ranks_per_file The number of ranks in a group. The first rank of a group writes.
+ * @throws std::runtime_error if a file cannot be written.
+ */
+void write_state(MPI_Comm                  comm,
+                 const std::string        &directory,
+                 const std::string        &stem,
+                 const std::vector<Block> &blocks,
+                 const std::string        &arrays,
+                 unsigned int              ranks_per_file);
+} // namespace snug::io
+
+#endif

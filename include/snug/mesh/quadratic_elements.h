@@ -1,0 +1,80 @@
+#ifndef snug_mesh_quadratic_elements_h
+#define snug_mesh_quadratic_elements_h
+
+#include <snug/mesh/forest.h>
+#include <snug/mesh/partition.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <functional>
+
+namespace snug::mesh {
+/**
+ * This class finds the elements of mesh files that were split into cells, and constrains the nodes
+ * of degree 2 of their cells such that the functions on the cells are the quadratic functions of
+ * the elements: P2 on triangles and tetrahedra, products of P2 along the triangle and the axis on
+ * prisms, biquadratic and triquadratic functions on quadrilaterals and hexahedra.
+ *
+ * The map from the coordinates of a cell to the barycentric coordinates of a simplex is
+ * multilinear, so a quadratic function of the simplex has degree 2 in each coordinate of the cell
+ * and thus belongs to Q2 on the cells. The nodes at the corners of the element and in the middles
+ * of its edges remain unknowns (for prisms and hexahedra also in the middles of quadrilateral faces
+ * and of hexahedra). The value at every other node x of the cells is
+ * @f[ u(x) = \sum_m N_m(x) u_m @f]
+ * with the shape functions N_m of the element. On a face or an edge, only the functions of its own
+ * nodes are not zero, so elements that share a face or an edge have equal constraints there.
+ *
+ * An element whose cells were refined, and all elements that share an edge with it, keep all nodes
+ * of their cells, except nodes on faces and edges of constrained elements. Such functions are
+ * continuous, too. Boundaries with samples of the true surface (contact, normal supports and shaped
+ * faces) keep all nodes as well.
+ */
+template <int dim>
+class QuadraticElements
+{
+public:
+  /// Find no elements, so that no node is constrained.
+  QuadraticElements() = default;
+
+  /// Find the elements of all bodies. Collective.
+  explicit QuadraticElements(const Forest<dim> &forest);
+
+  /// Return the place of a cell, whose id has the position in the coarse mesh. The place has no
+  /// element if a cell of the element was refined. The elements of all bodies have different
+  /// numbers.
+  CellPlace place(const dealii::CellId &cell) const;
+
+  /// Return the id of a cell whose coarse cell is the position in the coarse mesh.
+  using PlacedId = std::function<dealii::CellId(const dealii::CellId &)>;
+
+  /// Add the constraints to @p constraints, which may contain those of hanging nodes of refined
+  /// cells. @p order is the permutation from tensor-product order to the order of the element of
+  /// degree 2 of @p nodes. Constraints of ghost cells whose masters are not on this rank are left
+  /// out.
+  void constrain(const dealii::DoFHandler<dim>     &nodes,
+                 const PlacedId                    &placed_id,
+                 const std::vector<unsigned int>   &order,
+                 dealii::AffineConstraints<double> &constraints) const;
+
+private:
+  std::vector<geometry::ElementPart<dim>> parts;      ///< per coarse cell; empty without elements
+  std::vector<std::vector<unsigned int>>  vertices;   ///< per coarse cell
+  std::vector<unsigned char>              refined;    ///< per element
+  std::vector<bool>                       is_hanging; ///< per vertex: see mark()
+
+  bool is_refined(const unsigned int coarse_cell) const
+  {
+    const unsigned int element = parts[coarse_cell].element;
+    return element != geometry::no_element && refined[element] > 0;
+  }
+
+  void find_refined(const Forest<dim> &forest);
+  void mark(const Forest<dim> &forest);
+};
+} // namespace snug::mesh
+
+#endif

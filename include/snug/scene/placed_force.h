@@ -1,0 +1,22 @@
+#ifndef snug_scene_placed_force_h
+#define snug_scene_placed_force_h
+
+#include <string>
+#include <vector>
+
+namespace snug::scene {
+/// A force at a point, 'FX FY FZ at X Y Z', or per length along a line, 'FX FY FZ from X Y Z to X Y
+/// Z' or 'FX FY FZ along BOUNDARY'. What the text does not give is empty.
+struct PlacedForce
+{
+  std::vector<double> force;    ///< [force], along a line [force / length]
+  std::vector<double> at;       ///< the point [length]
+  std::vector<double> from, to; ///< the ends of the line [length]
+  std::string         along;    ///< the boundary whose common edge with the loaded one is the line
+};
+
+/// Read a force. @throws std::invalid_argument unless vectors have @p dimension numbers.
+PlacedForce placed_force(const std::string &text, unsigned int dimension);
+} // namespace snug::scene
+
+#endif

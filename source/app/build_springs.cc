@@ -1,0 +1,64 @@
+#include <snug/app/build_loads.h>
+#include <snug/base/values.h>
+#include <snug/geometry/formula.h>
+#include <snug/scene/placed_force.h>
+
+#include <memory>
+
+namespace snug::app {
+template <int dim>
+std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scene,
+                                                 const mesh::BodyMesh<dim> &mesh)
+{
+  using supports::Spring;
+  std::vector<Spring<dim>> springs;
+  const auto               spring = [&](const std::string &entry, const std::string &body,
+                          const std::string &boundary, const std::string &text) {
+    const std::string face  = body + "." + boundary;
+    const auto        where = find_face(scene, mesh, face);
+    return Spring<dim>{where.first, where.second,
+                       0,           {},
+                       {},          "entry '" + entry + "' = '" + boundary + ": " + text + "'",
+                       face};
+  };
+  for (const auto &body : scene.bodies)
+    {
+      for (const auto &[boundary, text] : body.springs)
+        {
+          const std::string entry    = body.section() + "/Springs";
+          const auto [name, formula] = scene::split_displacement(text);
+          const auto of_position     = std::make_shared<geometry::Formula<dim>>(entry, formula);
+          for (const unsigned int c : scene::component_list(name, dim))
+            {
+              auto next      = spring(entry, body.name, boundary, text);
+              next.component = c;
+              next.stiffness = [of_position](const dealii::Point<dim> &x) {
+                return of_position->value(x);
+              };
+              springs.push_back(next);
+            }
+        }
+      for (const auto &[boundary, text] : body.point_springs)
+        {
+          const auto         given = scene::placed_force(text, dim);
+          dealii::Point<dim> place;
+          for (unsigned int c = 0; c < dim; ++c)
+            place[c] = given.at[c];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              auto next      = spring(body.section() + "/Point springs", body.name, boundary, text);
+              next.component = c;
+              next.place     = place;
+              next.stiffness = [k = given.force[c]](const dealii::Point<dim> &) { return k; };
+              springs.push_back(next);
+            }
+        }
+    }
+  return springs;
+}
+
+template std::vector<supports::Spring<2>> build_springs(const scene::Scene &,
+                                                        const mesh::BodyMesh<2> &);
+template std::vector<supports::Spring<3>> build_springs(const scene::Scene &,
+                                                        const mesh::BodyMesh<3> &);
+} // namespace snug::app

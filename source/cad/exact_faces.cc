@@ -1,0 +1,262 @@
+#include <snug/cad/faces.h>
+
+#include <Adaptor3d_Curve.hxx>
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <ShapeAnalysis_Curve.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <gp_Circ.hxx>
+#include <gp_Cone.hxx>
+#include <gp_Cylinder.hxx>
+#include <gp_Pln.hxx>
+#include <gp_Sphere.hxx>
+#include <gp_Torus.hxx>
+
+#include <cmath>
+
+namespace snug::cad {
+namespace {
+template <int dim, typename XYZ>
+dealii::Point<dim> point_of(const XYZ &xyz)
+{
+  dealii::Point<dim> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    result[d] = xyz.Coord(d + 1);
+  return result;
+}
+
+template <int dim>
+gp_Pnt to_occ(const dealii::Point<dim> &x, const double z)
+{
+  return {x[0], x[1], dim == 3 ? x[dim - 1] : z};
+}
+
+/// This class projects points on the curve of an edge, beyond its ends as well.
+template <int dim>
+class OnCurve : public geometry::Projection<dim>
+{
+public:
+  explicit OnCurve(const TopoDS_Edge &edge)
+  {
+    double first, last;
+    curve = BRep_Tool::Curve(edge, first, last);
+    z     = curve->Value(first).Z();
+  }
+
+  dealii::Point<dim> project(const dealii::Point<dim> &x) const override
+  {
+    gp_Pnt on;
+    double parameter;
+    ShapeAnalysis_Curve().Project(curve, to_occ(x, z), 1e-12, on, parameter, false);
+    return point_of<dim>(on);
+  }
+
+private:
+  Handle(Geom_Curve) curve;
+  double z; ///< of the plane in 2D
+};
+
+/// This class projects points on the surface of a face, beyond its edges as well.
+class OnSurface : public geometry::Projection<3>
+{
+public:
+  explicit OnSurface(const TopoDS_Face &face)
+    : surface(new ShapeAnalysis_Surface(BRep_Tool::Surface(face)))
+  {}
+
+  dealii::Point<3> project(const dealii::Point<3> &x) const override
+  {
+    return point_of<3>(surface->Value(surface->ValueOfUV(to_occ(x, 0.), 1e-12)));
+  }
+
+private:
+  Handle(ShapeAnalysis_Surface) surface;
+};
+
+template <int dim>
+using Face = typename mesh_file::ExactFaces<dim>::Face;
+
+/// Return the unit normal of a plane. Components of the size of rounding are 0, so that nodes of
+/// planes across an axis keep their coordinate.
+template <int dim>
+dealii::Tensor<1, dim> clean_normal(dealii::Tensor<1, dim> n)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::abs(n[d]) < 1e-10 * n.norm())
+      n[d] = 0.;
+  return n / n.norm();
+}
+
+/// Return the cone, whose axis points from the apex to the face.
+geometry::KnownSurface<3> cone_of(const BRepAdaptor_Surface &adaptor)
+{
+  const gp_Cone             cone = adaptor.Cone();
+  geometry::KnownSurface<3> known;
+  known.kind        = geometry::KnownSurface<3>::Kind::cone;
+  known.centre      = point_of<3>(cone.Apex());
+  known.axis        = point_of<3>(cone.Axis().Direction());
+  known.angle       = std::abs(cone.SemiAngle());
+  const auto middle = adaptor.Value(0.5 * (adaptor.FirstUParameter() + adaptor.LastUParameter()),
+                                    0.5 * (adaptor.FirstVParameter() + adaptor.LastVParameter()));
+  if (known.axis * (point_of<3>(middle) - known.centre) < 0.)
+    known.axis *= -1.;
+  return known;
+}
+
+/// Return the torus of a circle in a plane through an axis that turns about the axis, or nothing.
+std::optional<geometry::KnownSurface<3>> revolved_circle(const BRepAdaptor_Surface &adaptor)
+{
+  const auto curve = adaptor.BasisCurve();
+  if (curve->GetType() != GeomAbs_Circle)
+    return {};
+  const gp_Ax1              axis   = adaptor.AxeOfRevolution();
+  const gp_Circ             circle = curve->Circle();
+  const auto                centre = point_of<3>(circle.Location());
+  const auto                normal = point_of<3>(circle.Axis().Direction());
+  geometry::KnownSurface<3> known;
+  known.kind   = geometry::KnownSurface<3>::Kind::torus;
+  known.axis   = point_of<3>(axis.Direction());
+  known.centre = point_of<3>(axis.Location());
+  known.centre += ((centre - known.centre) * known.axis) * known.axis;
+  known.radius          = centre.distance(known.centre);
+  known.tube            = circle.Radius();
+  const double rounding = 1e-12;
+  if (std::abs(normal * known.axis) > rounding ||
+      std::abs((centre - known.centre) * normal) > rounding * known.tube ||
+      known.tube >= known.radius)
+    return {};
+  return known;
+}
+
+/// Return the sphere, cylinder, cone or torus of a face, or nothing. The tube of a torus must not
+/// reach the axis.
+std::optional<geometry::KnownSurface<3>> known_surface(const BRepAdaptor_Surface &adaptor)
+{
+  using Kind = geometry::KnownSurface<3>::Kind;
+  geometry::KnownSurface<3> known;
+  const auto                set = [&](const Kind kind, const auto &round) {
+    known.kind   = kind;
+    known.centre = point_of<3>(round.Location());
+    known.axis   = point_of<3>(round.Position().Direction());
+  };
+  switch (adaptor.GetType())
+    {
+      case GeomAbs_Sphere:
+        set(Kind::sphere, adaptor.Sphere());
+        known.radius = adaptor.Sphere().Radius();
+        return known;
+      case GeomAbs_Cylinder:
+        set(Kind::cylinder, adaptor.Cylinder());
+        known.radius = adaptor.Cylinder().Radius();
+        return known;
+      case GeomAbs_Cone:
+        return cone_of(adaptor);
+      case GeomAbs_SurfaceOfRevolution:
+        return revolved_circle(adaptor);
+      case GeomAbs_Torus:
+        set(Kind::torus, adaptor.Torus());
+        known.radius = adaptor.Torus().MajorRadius();
+        known.tube   = adaptor.Torus().MinorRadius();
+        if (known.tube < known.radius)
+          return known;
+        return {};
+      default:
+        return {};
+    }
+}
+
+Face<3> exact_face(const TopoDS_Face &face)
+{
+  const BRepAdaptor_Surface adaptor(face);
+  if (adaptor.GetType() == GeomAbs_Plane)
+    return {clean_normal<3>(point_of<3>(adaptor.Plane().Axis().Direction())), {}};
+  return {{}, known_surface(adaptor), std::make_shared<OnSurface>(face)};
+}
+
+Face<2> exact_face(const TopoDS_Edge &edge)
+{
+  const BRepAdaptor_Curve adaptor(edge);
+  if (adaptor.GetType() == GeomAbs_Line)
+    {
+      const auto along = point_of<2>(adaptor.Line().Direction());
+      return {clean_normal<2>(dealii::Point<2>(along[1], -along[0])), {}};
+    }
+  std::optional<geometry::KnownSurface<2>> known;
+  if (adaptor.GetType() == GeomAbs_Circle)
+    {
+      known.emplace();
+      known->centre = point_of<2>(adaptor.Circle().Location());
+      known->radius = adaptor.Circle().Radius();
+    }
+  return {{}, known, std::make_shared<OnCurve<2>>(edge)};
+}
+
+/// The curves between two faces, by the pair of their indices.
+using Curves =
+  std::map<std::pair<unsigned int, unsigned int>, std::vector<std::shared_ptr<const OnCurve<3>>>>;
+
+Curves curves_between(const Part &part)
+{
+  TopTools_IndexedMapOfShape                faces;
+  TopTools_IndexedDataMapOfShapeListOfShape edges;
+  TopExp::MapShapes(part.shape, TopAbs_FACE, faces);
+  TopExp::MapShapesAndUniqueAncestors(part.shape, TopAbs_EDGE, TopAbs_FACE, edges);
+  Curves result;
+  for (int e = 1; e <= edges.Extent(); ++e)
+    {
+      const TopoDS_Edge &edge = TopoDS::Edge(edges.FindKey(e));
+      if (edges(e).Extent() != 2 || BRep_Tool::Degenerated(edge))
+        continue;
+      const unsigned int a = faces.FindIndex(edges(e).First()) - 1;
+      const unsigned int b = faces.FindIndex(edges(e).Last()) - 1;
+      result[{std::min(a, b), std::max(a, b)}].push_back(std::make_shared<OnCurve<3>>(edge));
+    }
+  return result;
+}
+} // namespace
+
+template <>
+mesh_file::ExactFaces<2> exact_faces(const Part &part)
+{
+  mesh_file::ExactFaces<2> result;
+  for (const auto &face : part.faces())
+    result.faces.push_back(exact_face(TopoDS::Edge(face)));
+  result.curve = [](unsigned int, unsigned int, const dealii::Point<2> &) { return nullptr; };
+  return result;
+}
+
+template <>
+mesh_file::ExactFaces<3> exact_faces(const Part &part)
+{
+  mesh_file::ExactFaces<3> result;
+  for (const auto &face : part.faces())
+    result.faces.push_back(exact_face(TopoDS::Face(face)));
+  result.curve = [curves = curves_between(part)](const unsigned int a, const unsigned int b,
+                                                 const dealii::Point<3> &middle) {
+    mesh_file::ExactFaces<3>::Projection closest;
+    double                               least = HUGE_VAL;
+    const auto                           found = curves.find({std::min(a, b), std::max(a, b)});
+    if (found != curves.end())
+      for (const auto &curve : found->second)
+        {
+          const double distance = middle.distance(curve->project(middle));
+          if (distance < least)
+            {
+              least   = distance;
+              closest = curve;
+            }
+        }
+    return closest;
+  };
+  return result;
+}
+} // namespace snug::cad

@@ -1,0 +1,176 @@
+#include <snug/base/errors.h>
+#include <snug/base/run_context.h>
+#include <snug/cad/faces.h>
+#include <snug/cad/gmsh.h>
+#include <snug/cad/import_cad.h>
+#include <snug/cad/size_field.h>
+#include <snug/mesh_file/import_mesh.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Standard_Failure.hxx>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace snug::cad {
+namespace {
+/// This struct stores the data that the first rank sends to all ranks.
+struct MeshedPart
+{
+  std::string                         brep, mesh;
+  std::vector<std::string>            names;    ///< of the faces
+  std::map<std::string, unsigned int> of_group; ///< group of the mesh -> face
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & brep & mesh & names & of_group;
+  }
+};
+
+/// Run @p work with errors of OpenCASCADE, which are no std::exception, as errors of the file.
+template <typename Work>
+auto guarded(const geometry::BodyMeshParameters &parameters, const Work &work)
+{
+  try
+    {
+      return work();
+    }
+  catch (const Standard_Failure &failure)
+    {
+      throw bad_entry("File", parameters.file,
+                      std::string("OpenCASCADE fails: ") + failure.GetMessageString());
+    }
+}
+
+std::string contents(const std::string &path)
+{
+  std::ifstream      in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// Check the entries that need the size of the part.
+void check_sizes(const geometry::BodyMeshParameters &parameters,
+                 const std::vector<std::string>     &boundaries,
+                 const double                        size)
+{
+  if (!(parameters.element_size > 0.))
+    throw bad_entry("Element size", to_text(parameters.element_size),
+                    "must be positive; the diagonal of the part is " +
+                      to_text(std::round(size * 1e3) / 1e3));
+  const std::set<std::string> all(boundaries.begin(), boundaries.end());
+  for (const auto &[boundary, own] : parameters.face_sizes)
+    {
+      const std::string given = boundary + ": " + to_text(own);
+      if (all.count(boundary) == 0)
+        throw bad_entry("Face sizes", given,
+                        "is not a boundary; the boundaries are " +
+                          to_text(std::vector<std::string>(all.begin(), all.end())));
+      if (!(own > 0. && own <= parameters.element_size))
+        throw bad_entry("Face sizes", given, "must be positive and at most 'Element size'");
+    }
+}
+
+/// Return the mesh with the names of the boundaries as names of its groups.
+std::string named(const std::string                         &mesh,
+                  const std::map<std::string, unsigned int> &of_group,
+                  const std::vector<std::string>            &boundaries,
+                  const unsigned int                         dim)
+{
+  std::ostringstream names;
+  names << "$PhysicalNames\n" << of_group.size() + 1 << '\n';
+  for (const auto &[group, face] : of_group)
+    names << dim - 1 << ' ' << group << " \"" << boundaries[face] << "\"\n";
+  names << dim << " 1 \"body\"\n$EndPhysicalNames\n";
+  const std::string end   = "$EndMeshFormat\n";
+  const auto        place = mesh.find(end) + end.size();
+  return mesh.substr(0, place) + names.str() + mesh.substr(place);
+}
+
+/// Mesh the part on this rank.
+MeshedPart meshed(const geometry::BodyMeshParameters &parameters,
+                  const unsigned int                  dim,
+                  const std::string                  &stem)
+{
+  const Part part       = read_part(parameters.file, parameters.solid, dim);
+  const auto boundaries = boundaries_of(describe_faces(part), parameters.cad_faces);
+  check_sizes(parameters, boundaries, part.size());
+  const SizeField sizes(part,
+                        size_sources(part, boundaries, parameters.face_sizes,
+                                     parameters.element_size),
+                        parameters.element_size, parameters.size_growth);
+  std::error_code unused; // writing fails if there is no directory
+  std::filesystem::create_directories(std::filesystem::path(stem).parent_path(), unused);
+  MeshedPart result;
+  result.brep  = to_brep(part.shape);
+  result.names = part.names;
+  try
+    {
+      run_gmsh(stem, result.brep, sizes.text(), dim);
+      result.mesh     = contents(stem + ".msh");
+      result.of_group = faces_of_groups(part, mesh_file::read_mesh_file(result.mesh));
+    }
+  catch (const InputError &error)
+    {
+      throw bad_entry("File", parameters.file, error.what());
+    }
+  std::ofstream(stem + ".msh", std::ios::binary)
+    << named(result.mesh, result.of_group, boundaries, dim);
+  return result;
+}
+
+/// Return the blocks of the mesh, with the true surfaces of the faces.
+template <int dim>
+std::shared_ptr<geometry::ImportedMesh>
+blocks_of(const MeshedPart &meshed, const Part &part, geometry::BodyMeshParameters parameters)
+{
+  auto file = mesh_file::read_mesh_file(meshed.mesh);
+  for (auto &element : file.elements)
+    if (mesh_file::dimension(element.shape) == dim)
+      element.groups.clear(); // the only region
+  const auto faces      = describe_faces(part);
+  const auto boundaries = boundaries_of(faces, parameters.cad_faces);
+  parameters.boundary_numbers.clear();
+  for (const auto &[group, face] : meshed.of_group)
+    parameters.boundary_numbers[group] = boundaries[face];
+  auto exact          = exact_faces<dim>(part);
+  exact.face_of_group = meshed.of_group;
+  auto result         = mesh_file::import_mesh<dim>(file, parameters, &exact);
+  result->text_hash   = mesh_file::text_hash(meshed.mesh);
+  result->faces       = table_of(faces, boundaries, dim);
+  return result;
+}
+} // namespace
+
+std::shared_ptr<const geometry::ImportedMesh>
+import_cad(const geometry::BodyMeshParameters &parameters,
+           const unsigned int                  dim,
+           const std::string                  &directory,
+           const std::string                  &name,
+           const MPI_Comm                      communicator)
+{
+  MeshedPart result;
+  throw_collectively(communicator, [&]() {
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      result =
+        guarded(parameters, [&]() { return meshed(parameters, dim, directory + "/" + name); });
+  });
+  result = dealii::Utilities::MPI::broadcast(communicator, result, 0);
+  // All ranks read the same text, so that their shapes agree to the last digit.
+  return guarded(parameters, [&]() {
+    const Part part{from_brep(result.brep), dim, result.names};
+    return dim == 2 ? blocks_of<2>(result, part, parameters)
+                    : blocks_of<3>(result, part, parameters);
+  });
+}
+} // namespace snug::cad

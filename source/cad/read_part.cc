@@ -1,0 +1,272 @@
+#include <snug/base/errors.h>
+#include <snug/base/values.h>
+#include <snug/cad/part.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepLib.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GeomLib_IsPlanarSurface.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepShape_TopologicalRepresentationItem.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace snug::cad {
+namespace {
+/// A shape with all solids of a file, and the names of its faces or edges.
+struct FileShape
+{
+  TopoDS_Shape               shape;
+  TopTools_IndexedMapOfShape faces;
+  std::vector<std::string>   names;
+};
+
+TopTools_IndexedMapOfShape map_of(const TopoDS_Shape &shape, const TopAbs_ShapeEnum kind)
+{
+  TopTools_IndexedMapOfShape result;
+  TopExp::MapShapes(shape, kind, result);
+  return result;
+}
+
+/// Return a name without the characters that separate items of lists in a parameter file. CAD
+/// programs write NONE or blanks for no name.
+std::string usable_name(std::string name)
+{
+  for (char &c : name)
+    if (std::string(",:;=#\\+&.").find(c) != std::string::npos ||
+        static_cast<unsigned char>(c) < ' ')
+      c = '_';
+  name = trim(name);
+  return name == "NONE" ? "" : name;
+}
+
+InputError file_error(const std::string &path, const std::string &message)
+{
+  return bad_entry("File", path, message);
+}
+
+FileShape read_step(const std::string &path, const TopAbs_ShapeEnum kind)
+{
+  std::string first;
+  std::getline(std::ifstream(path), first);
+  if (first.rfind("ISO-10303-21", 0) != 0)
+    throw file_error(path, "is not a STEP file, which begins with ISO-10303-21");
+  STEPControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+    throw file_error(path, "cannot be read as a STEP file");
+  reader.TransferRoots();
+  FileShape result;
+  result.shape = reader.OneShape();
+  result.faces = map_of(result.shape, kind);
+  result.names.resize(result.faces.Extent());
+  const auto model    = reader.StepModel();
+  const auto transfer = reader.WS()->TransferReader()->TransientProcess();
+  for (int e = 1; e <= model->NbEntities(); ++e)
+    {
+      const auto item = Handle(StepShape_TopologicalRepresentationItem)::DownCast(model->Value(e));
+      if (item.IsNull() || item->Name().IsNull() || item->Name()->IsEmpty())
+        continue;
+      const TopoDS_Shape own = TransferBRep::ShapeResult(transfer, item);
+      // Instances of a part in an assembly have the same face at other places.
+      for (int f = 1; f <= result.faces.Extent() && !own.IsNull(); ++f)
+        if (result.faces(f).IsPartner(own))
+          result.names[f - 1] = usable_name(item->Name()->ToCString());
+    }
+  return result;
+}
+
+/// Return the shape of a file without names of faces.
+TopoDS_Shape read_nameless(const std::string &path, const std::string &ending)
+{
+  TopoDS_Shape shape;
+  if (ending == ".brep" || ending == ".brp")
+    {
+      if (!BRepTools::Read(shape, path.c_str(), BRep_Builder()) || shape.IsNull())
+        throw file_error(path, "cannot be read as a BREP file");
+      return shape;
+    }
+  IGESControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+    throw file_error(path, "cannot be read as an IGES file");
+  reader.TransferRoots();
+  return reader.OneShape();
+}
+
+FileShape read_file(const std::string &path, const TopAbs_ShapeEnum kind)
+{
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](const unsigned char c) { return std::tolower(c); });
+  std::error_code unused;
+  if (!std::filesystem::is_regular_file(path, unused) || !std::ifstream(path))
+    throw file_error(path, "cannot be read: there is no such file, or it is not readable");
+  if (ending == ".step" || ending == ".stp")
+    return read_step(path, kind);
+  if (ending != ".brep" && ending != ".brp" && ending != ".iges" && ending != ".igs")
+    throw file_error(path, "must be a CAD file that ends with .step, .stp, .iges, .igs, .brep or "
+                           ".brp; mesh files need 'Mesh = file'");
+  FileShape result;
+  result.shape = read_nameless(path, ending);
+  return result;
+}
+
+Bnd_Box box_of(const TopoDS_Shape &shape)
+{
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(shape, box, false, false);
+  return box;
+}
+
+std::string box_text(const TopoDS_Shape &shape)
+{
+  double lower[3], upper[3];
+  box_of(shape).Get(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
+  std::ostringstream text;
+  text.precision(4);
+  for (unsigned int d = 0; d < 3; ++d)
+    text << (d == 0 ? "" : ", ") << "xyz"[d] << ' ' << lower[d] << " to " << upper[d];
+  return text.str();
+}
+
+/// Return the solid that the faces of @p shape enclose; null: none.
+TopoDS_Shape sewn(const TopoDS_Shape &shape)
+{
+  BRepBuilderAPI_Sewing sewing(1e-5 * std::sqrt(box_of(shape).SquareExtent()));
+  sewing.Add(shape);
+  sewing.Perform();
+  const TopTools_IndexedMapOfShape shells = map_of(sewing.SewedShape(), TopAbs_SHELL);
+  if (shells.Extent() != 1 || !BRep_Tool::IsClosed(shells(1)))
+    return {};
+  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells(1)));
+  BRepLib::OrientClosedSolid(solid);
+  return solid;
+}
+
+/// Return the solid, or in 2D the plane face, with the number @p wanted of the entry Solid.
+TopoDS_Shape chosen(const TopTools_IndexedMapOfShape &all,
+                    const unsigned int                wanted,
+                    const std::string                &path,
+                    const std::string                &what)
+{
+  const unsigned int n = all.Extent();
+  if (wanted > n)
+    throw bad_entry("Solid", to_text(wanted),
+                    "must be at most " + std::to_string(n) + ", the number of " + what +
+                      "s in the CAD file");
+  if (wanted > 0 || n == 1)
+    return all(std::max(1u, wanted));
+  std::string list;
+  for (unsigned int k = 1; k <= std::min(n, 9u); ++k)
+    list += (k == 1 ? "" : "; ") + std::to_string(k) + ": " + box_text(all(k));
+  throw bad_entry("Solid", "0",
+                  "must be the number of one " + what + ", because " + path + " contains " +
+                    std::to_string(n) + ": " + list + (n > 9 ? "; ..." : ""));
+}
+
+void require_in_plane(const TopoDS_Shape &shape, const std::string &path)
+{
+  double                        lower[3], upper[3];
+  const GeomLib_IsPlanarSurface test(BRep_Tool::Surface(TopoDS::Face(shape)), 1e-7);
+  box_of(shape).Get(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
+  if (!test.IsPlanar() || std::abs(test.Plan().Axis().Direction().Z()) < 1. - 1e-12)
+    throw file_error(path, "must contain a face in the xy plane for a model with Dimension = 2");
+}
+
+Part part_of(FileShape          file,
+             const std::string &path,
+             const unsigned int solid,
+             const unsigned int dim)
+{
+  TopTools_IndexedMapOfShape solids = map_of(file.shape, TopAbs_SOLID);
+  const auto                 faces  = map_of(file.shape, TopAbs_FACE);
+  if (faces.IsEmpty())
+    throw file_error(path, "contains no face");
+  Part part;
+  part.dim = dim;
+  if (dim == 2)
+    {
+      if (!solids.IsEmpty())
+        throw file_error(path, "contains a solid; a model with Dimension = 2 needs a plane face");
+      part.shape = chosen(faces, solid, path, "face");
+      require_in_plane(part.shape, path);
+    }
+  else
+    {
+      if (solids.IsEmpty())
+        {
+          const auto whole = sewn(file.shape);
+          if (whole.IsNull())
+            throw file_error(path, "contains no solid, and its faces do not enclose one");
+          solids.Add(whole);
+        }
+      part.shape = chosen(solids, solid, path, "solid");
+    }
+  // Faces that continue each other without an edge are marked, see describe_faces().
+  BRepLib::EncodeRegularity(part.shape, M_PI / 360.);
+  for (const auto &face : part.faces())
+    {
+      const int f = file.faces.FindIndex(face);
+      part.names.push_back(f == 0 ? "" : file.names[f - 1]);
+    }
+  return part;
+}
+} // namespace
+
+std::vector<TopoDS_Shape> Part::faces() const
+{
+  const auto                map = map_of(shape, dim == 2 ? TopAbs_EDGE : TopAbs_FACE);
+  std::vector<TopoDS_Shape> result;
+  for (int f = 1; f <= map.Extent(); ++f)
+    result.push_back(map(f));
+  return result;
+}
+
+double Part::size() const
+{
+  return std::sqrt(box_of(shape).SquareExtent());
+}
+
+Part read_part(const std::string &path, const unsigned int solid, const unsigned int dim)
+{
+  // Messages of OpenCASCADE would go to the log.
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  return part_of(read_file(path, dim == 2 ? TopAbs_EDGE : TopAbs_FACE), path, solid, dim);
+}
+
+std::string to_brep(const TopoDS_Shape &shape)
+{
+  std::ostringstream text;
+  BRepTools::Write(shape, text);
+  return text.str();
+}
+
+TopoDS_Shape from_brep(const std::string &text)
+{
+  TopoDS_Shape       result;
+  std::istringstream in(text);
+  BRepTools::Read(result, in, BRep_Builder());
+  return result;
+}
+} // namespace snug::cad

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""The program gmsh reads profile.step, and its points lie on the design: step_profile.py SNUG.
+
+The tread of prm/step-roller.prm on a coarse mesh has control points at given heights. The design is
+evaluated without Snug, from control-points.csv."""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "contrib" / "lib"))
+
+from step_profile import Crown, face_names, step_nodes  # noqa: E402
+
+COARSE = ["Task=sensitivity", "Body rim/Element size=8", "Body rim/Face sizes=tread: 6",
+          "Body rim/Local refinements=0",
+          "Shape/Initial=0.02, 0.02, 0.015, 0.01, 0, -0.02, -0.05, -0.1"]
+
+
+def run(scene, settings, output, ranks=1):
+    words = [SNUG, ROOT / scene, "--output", output,
+             *(word for one in settings for word in ("--set", one))]
+    if ranks > 1:
+        words = [MPIEXEC, "-n", str(ranks), *words]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=120)
+    if done.returncode != 0:
+        raise AssertionError(done.stderr)
+    return done.stdout
+
+
+def summary(output):
+    return json.loads((pathlib.Path(output) / "summary.json").read_text(encoding="utf-8"))
+
+
+class Profile(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.output = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_points_of_the_file_lie_on_the_design(self):
+        log = run("prm/step-roller.prm", COARSE, self.output)
+        step = self.output / "profile.step"
+        self.assertEqual(face_names(step), ["rim.tread"])
+        written, = summary(self.output)["profile"]
+        self.assertLessEqual(written["deviation"], written["asked"])
+        self.assertIn("profile.step: face rim.tread", log)
+        crown = Crown(self.output, 50, -50, 14)
+        nodes = step_nodes(step, 1)
+        self.assertGreater(len(nodes), 200)
+        # The design is that of the samples, whose polynomials of degree 4 deviate from the splines
+        # by less than 1e-5 mm on cells of 3 mm.
+        self.assertLess(crown.deviation(nodes), 2 * written["asked"] + 1e-5)
+        # The border of the tread: its width, and 0.28 radian of the moved circle.
+        self.assertAlmostEqual(max(x for x, _, _ in nodes), 14, places=4)
+        self.assertAlmostEqual(min(x for x, _, _ in nodes), 0, places=4)
+
+    def test_ranks_write_the_same_face(self):
+        faces = []
+        for ranks in (1, 2):
+            run("prm/step-roller.prm", [*COARSE, "Output/Profile deviation=1e-4"], self.output, ranks)
+            faces.append(summary(self.output)["profile"])
+        self.assertEqual(faces[0][0]["spans"], faces[1][0]["spans"])
+        self.assertLessEqual(faces[0][0]["deviation"], faces[0][0]["asked"])
+        self.assertAlmostEqual(faces[0][0]["asked"], faces[1][0]["asked"], places=12)
+
+    def test_sections_are_swept(self):
+        scene = "tests/scenes/ground-profile.prm"
+        run(scene, ["Task=sensitivity", "Thickness=0.5", "Units=m, N"], self.output)
+        step = self.output / "profile.step"
+        nodes = step_nodes(step, 200)  # in mm
+        for axis, lower, upper in ((0, 0, 1000), (1, 1000, 1000), (2, 0, 500)):
+            self.assertAlmostEqual(min(x[axis] for x in nodes), lower, places=4)
+            self.assertAlmostEqual(max(x[axis] for x in nodes), upper, places=4)
+        run(scene, ["Task=sensitivity", "Output/Profile deviation=0"], self.output)
+        self.assertFalse(step.exists())
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("snug")
+    parser.add_argument("--mpiexec", default="mpiexec")
+    arguments = parser.parse_args()
+    SNUG, MPIEXEC = arguments.snug, arguments.mpiexec
+    unittest.main(argv=[sys.argv[0]])
