@@ -262,7 +262,7 @@ TEST(FieldOutput, RankWithoutCellsWritesAnEmptyPiece)
   models[0].materials        = {{1., 0.3}};
   const auto         tearing = test::one_subdomain_per_rank(mesh);
   io::FieldOutput<2> output(scratch.path, a_file_per_rank());
-  output.write({mesh, tearing, models, contact::Position<2>()}, 0., linear_state(mesh));
+  output.write({mesh, tearing, models, state::LoadCase<2>()}, 0., linear_state(mesh));
   const auto vtu = test::read_vtu(test::read_file(scratch.file(piece_of_rank("solution-0000"))));
   EXPECT_EQ(vtu.n_cells, mesh.cells().size());
 }
