@@ -326,7 +326,7 @@ TEST(FieldOutput, RankWithoutCellsWritesNoFile)
   models[0].materials        = {{1., 0.3}};
   const auto         tearing = test::one_subdomain_per_rank(mesh);
   io::FieldOutput<2> output(scratch.path, a_file_per_rank(), names);
-  output.write({mesh, tearing, models, contact::Position<2>()}, 0., linear_state(mesh));
+  output.write({mesh, tearing, models, state::LoadCase<2>()}, 0., linear_state(mesh));
   MPI_Barrier(MPI_COMM_WORLD);
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
