@@ -41,8 +41,10 @@ def patch_cases(shape, box, slave, master):
         wrong("curvature of straight lines", "Shape/Convex", "true", ["degree 2"], shape),
         wrong("angle without an axis", "Shape/Coordinates", "projection", ["angle"],
               {**modes, "Shape/Modes": "0, 0, angle"}),
-        wrong("coordinate of a face for bodies", "Shape/Modes", "0, 0, s",
-              ["formula of x, y, z"], {**modes, "Shape/Face": ""}),
+        # The message names the component, not the whole value.
+        Case("coordinate of a face for bodies",
+             {**modes, "Shape/Face": "", "Shape/Modes": "0, 0, s"},
+             ["Modes", "'s'", "formula of x, y, z"], []),
     ]
 
 
