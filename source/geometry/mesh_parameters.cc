@@ -69,12 +69,15 @@ void declare_round(Entries &entries, BodyMeshParameters &mesh)
 
 void declare_file(Entries &entries, BodyMeshParameters &mesh)
 {
-  entries.add("File", mesh.file, allowed("the path of a file"),
-              "The mesh file or CAD file, relative to the parameter file. Mesh files: Gmsh .msh 2 "
-              "or 4.1, or Abaqus .inp. Triangles, tetrahedra and prisms are split into "
-              "quadrilaterals and hexahedra. 'meshio convert -o gmsh22 part.vtk part.msh' converts "
-              "other formats. CAD files: STEP (.step, .stp), IGES (.iges, .igs) and BREP (.brep); "
-              "lengths of STEP and IGES files are converted to mm.");
+  entries.add(
+    "File", mesh.file,
+    with_meanings(allowed("the path of a file"),
+                  {{"mesh files", "Gmsh .msh 2 or 4.1, or Abaqus .inp. Triangles, tetrahedra and "
+                                  "prisms are split into quadrilaterals and hexahedra. 'meshio "
+                                  "convert -o gmsh22 part.vtk part.msh' converts other formats."},
+                   {"CAD files", "STEP (.step, .stp), IGES (.iges, .igs) and BREP (.brep). Lengths "
+                                 "of STEP and IGES files are converted to mm."}}),
+    "The mesh file or CAD file, relative to the parameter file.");
   entries.add("Mesh regions", mesh.regions,
               "The groups of cells of the mesh file that form the body. An empty list means all "
               "cells.");

@@ -173,8 +173,8 @@ void expect_solution_of_simplices(const std::string &name,
   const std::string file = SNUG_MESHES + name;
   SolvedScene<dim>  solved("set Dimension = " + std::to_string(dim) +
                              "\nset Bodies = block\nset Gravity = " + (dim == 3 ? "0.5, " : "") +
-                             "1, -3\nsubsection Body block\nset Mesh = file\nset File = " +
-                             file + "\nset Mesh regions = " + region +
+                             "1, -3\nsubsection Body block\nset Mesh = file\nset File = " + file +
+                             "\nset Mesh regions = " + region +
                              "\nset Young's modulus = 1000\nset Poisson's ratio = 0.3\n"
                               "set Density = 5\nset Pressure = top: 2\nset Supports = bottom: " +
                              (dim == 3 ? "xyz" : "xy") +
