@@ -1,6 +1,7 @@
 #include <snug/app/adaptation.h>
 #include <snug/app/conclusion.h>
 #include <snug/app/interrupt.h>
+#include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
 #include <snug/base/errors.h>
 

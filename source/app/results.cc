@@ -5,6 +5,7 @@
 #include <snug/contact/pair_geometry.h>
 #include <snug/io/mesh_export.h>
 #include <snug/io/qp_export.h>
+#include <snug/io/text_file.h>
 #include <snug/state/symmetry_planes.h>
 #include <snug/state/validity_checks.h>
 
