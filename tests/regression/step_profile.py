@@ -17,9 +17,9 @@ sys.path.insert(0, str(ROOT / "contrib" / "lib"))
 
 from step_profile import Crown, face_names, step_nodes  # noqa: E402
 
-COARSE = ["Task=sensitivity", "Body rim/Element size=8", "Body rim/Face sizes=tread: 6",
+COARSE = ["Task=sensitivity", "Body rim/Element size=8", "Body rim/Face sizes=tread: 4",
           "Body rim/Local refinements=0",
-          "Shape/Initial=0.02, 0.02, 0.015, 0.01, 0, -0.02, -0.05, -0.1"]
+          "Shape/Initial=0, -0.003, -0.011, -0.025, -0.044, -0.068, -0.087, -0.098"]
 
 
 def run(scene, settings, output, ranks=1):

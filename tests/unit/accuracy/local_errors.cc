@@ -167,7 +167,7 @@ TEST(EnergyEstimate, SeesMaterialsThatMeet)
 {
   auto scene = guided_blocks<2>(8, 8);
   scene.bodies.erase(scene.bodies.begin());
-  scene.bodies[0].loads[face_index(1, 1)] = {10., {}, {}, [](const dealii::Point<2> &x) {
+  scene.bodies[0].loads[face_index(1, 1)] = {10., {}, {}, {}, [](const dealii::Point<2> &x) {
                                                return 1. +
                                                       0.5 * std::cos(dealii::numbers::PI * x[0]);
                                              }};
