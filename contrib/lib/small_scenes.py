@@ -281,7 +281,7 @@ CHECKS = [
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
     Check("deck-blocks", [], DECK_BLOCKS),
-    Check("cad-block", [], named_boundaries),
+    Check("cad-block", ["Solver/Relative tolerance=1e-11"], named_boundaries),
     Check("boundary-formulas", [], boundary_formulas, 1e-6),
     Check("point-loads", [], POINT_SPRINGS, 1e-6),
     Check("point-loads", ["Decomposition/Subdomains=8", "Body block/Box cells=3, 5, 1"],

@@ -11,6 +11,7 @@ import os
 import pathlib
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -222,6 +223,8 @@ def check_cad_files(runner):
                                    ["gmsh", "status 1", "no room"])):
         folder = runner.folder / title.replace(" ", "-")
         folder.mkdir()
+        if orted := shutil.which("orted", path=path):  # Open MPI starts it without mpirun as well
+            (folder / "orted").symlink_to(orted)
         if program:
             (folder / "gmsh").write_text(program, encoding="utf-8")
             (folder / "gmsh").chmod(0o755)

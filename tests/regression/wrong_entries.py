@@ -143,7 +143,7 @@ def input_cases(body, slave, master):
               ["formula of x,y,z"], friction),
         wrong("friction that drives", "Contact/Friction coefficient", "-0.1",
               ["0 or above"], friction),
-        wrong("negative deviation of a profile", "Output/Profile deviation", "-1e-6",
+        wrong("negative deviation of a profile", "Output/Profile deviation", "-0.5",
               ["at least 0"]),
         wrong("deviation of a profile that is no number", "Output/Profile deviation", "fine",
               ["a number"]),
