@@ -243,8 +243,8 @@ void write_step(const std::string             &path,
                 const std::string             &unit,
                 const std::vector<SplineFace> &faces)
 {
-  STEPCAFControl_Writer(); // declares the parameters
-  const std::string known = step_units().at(is_step_unit(unit) ? unit : "mm");
+  const STEPCAFControl_Writer declares_the_parameters;
+  const std::string           known = step_units().at(is_step_unit(unit) ? unit : "mm");
   // OpenCASCADE would convert numbers from the one unit to the other.
   const StaticValue of_numbers("xstep.cascade.unit", known), of_file("write.step.unit", known);
   try

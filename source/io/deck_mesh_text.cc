@@ -21,7 +21,7 @@ std::string list_text(const std::vector<std::string> &items, const std::size_t p
 std::string deck_real(const double x)
 {
   const std::size_t longest  = 20;
-  const std::string shortest = to_text(x + 0.); // no -0
+  std::string       shortest = to_text(x + 0.); // no -0
   if (shortest.size() <= longest)
     return shortest;
   char text[32];

@@ -68,11 +68,9 @@ TEST(History, LogLineStandsUnderItsHeader)
   const std::string line   = io::log_line(line_of_history(7));
   EXPECT_EQ(header.size(), line.size());
   std::istringstream                  names(header), numbers(line);
-  const std::map<std::string, double> values = {{"iter", 7.},
-                                                {"objective", -0.1},
-                                                {"contacts", 28.},
-                                                {"F-mults", 1234.}};
-  std::vector<std::string>            columns;
+  const std::map<std::string, double> values = {
+    {"iter", 7.}, {"evals", 15.}, {"objective", -0.1}, {"contacts", 28.}, {"F-mults", 1234.}};
+  std::vector<std::string> columns;
   for (std::string name; names >> name;)
     {
       columns.push_back(name);
@@ -84,8 +82,9 @@ TEST(History, LogLineStandsUnderItsHeader)
           EXPECT_NEAR(value, expected->second, 1e-12);
         }
     }
-  EXPECT_EQ(columns, (std::vector<std::string>{"iter", "objective", "gradient", "violation",
-                                               "contacts", "F-mults", "quality", "seconds"}));
+  EXPECT_EQ(columns,
+            (std::vector<std::string>{"iter", "evals", "objective", "gradient", "violation",
+                                      "contacts", "F-mults", "quality", "seconds"}));
 }
 
 TEST(TextFile, ExactNumbersReadBack)

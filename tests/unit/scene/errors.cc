@@ -68,7 +68,7 @@ TEST(Errors, Choices)
                 "one of state, sensitivity, optimize; did "
                 "you mean 'optimize'?"});
   expect_error({"Dimension", "4", "one of 2, 3"});
-  expect_error({"Element degree", "3", "one of 1, 2"});
+  expect_error({"Element degree", "3", "one of auto, 1, 2"});
   expect_error({"Solver/Method", "active sett", "did you mean 'active set'?"});
   expect_error({"Solver/Factorization", "LAPACK", "CHOLMOD, MUMPS"});
   expect_error({"Solver/Preconditioner", "dirichlet", "'Dirichlet'?"});
