@@ -223,8 +223,9 @@ def check_cad_files(runner):
                                    ["gmsh", "status 1", "no room"])):
         folder = runner.folder / title.replace(" ", "-")
         folder.mkdir()
-        if orted := shutil.which("orted", path=path):  # Open MPI starts it without mpirun as well
-            (folder / "orted").symlink_to(orted)
+        for needed in ("orted", "ssh", "rsh"):  # of Open MPI, also without mpirun
+            if found := shutil.which(needed, path=path):
+                (folder / needed).symlink_to(found)
         if program:
             (folder / "gmsh").write_text(program, encoding="utf-8")
             (folder / "gmsh").chmod(0o755)

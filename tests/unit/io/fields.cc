@@ -144,6 +144,8 @@ void expect_linear_fields(unsigned int degree, const geometry::RigidMotion<dim> 
         deviator[i][i] -= trace(sigma) / 3.;
       EXPECT_NEAR(entry(vtu, "von_mises", p), std::sqrt(1.5) * deviator.norm(), 1e-5);
     }
+  if (vtu.n_cells == 0) // a rank without cells has no blocks
+    return;
   for (const float subdomain : vtu.arrays.at("subdomain"))
     EXPECT_EQ(subdomain, rank);
   EXPECT_EQ(vtu.arrays.at("subdomain").size(), vtu.n_cells);

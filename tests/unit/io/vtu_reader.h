@@ -60,15 +60,19 @@ inline std::vector<float> decode_vtu_array(std::string text)
   return values;
 }
 
+/// Return the points and arrays of all pieces, one after the other.
 inline Vtu read_vtu(const std::string &text)
 {
-  Vtu        vtu;
-  const auto piece = text.find("<Piece");
+  Vtu  vtu;
+  auto piece = text.find("<Piece");
   if (piece == std::string::npos)
     throw std::runtime_error("no <Piece> in VTU text");
-  const auto tag = text.substr(piece, text.find('>', piece) - piece);
-  vtu.n_points   = std::stoul(xml_attribute(tag, "NumberOfPoints"));
-  vtu.n_cells    = std::stoul(xml_attribute(tag, "NumberOfCells"));
+  for (; piece != std::string::npos; piece = text.find("<Piece", piece + 1))
+    {
+      const auto tag = text.substr(piece, text.find('>', piece) - piece);
+      vtu.n_points += std::stoul(xml_attribute(tag, "NumberOfPoints"));
+      vtu.n_cells += std::stoul(xml_attribute(tag, "NumberOfCells"));
+    }
   for (auto at = text.find("<DataArray"); at != std::string::npos;
        at      = text.find("<DataArray", at + 1))
     {
@@ -79,8 +83,9 @@ inline Vtu read_vtu(const std::string &text)
       const auto name       = xml_attribute(array_tag, "Name");
       const auto components = xml_attribute(array_tag, "NumberOfComponents");
       vtu.components[name]  = components.empty() ? 1 : std::stoul(components);
-      vtu.arrays[name] =
+      const auto values =
         decode_vtu_array(text.substr(end + 1, text.find("</DataArray>", end) - end - 1));
+      vtu.arrays[name].insert(vtu.arrays[name].end(), values.begin(), values.end());
     }
   return vtu;
 }
