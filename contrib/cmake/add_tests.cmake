@@ -33,9 +33,13 @@ function(snug_add_unit_test module)
   if(SNUG_INSTRUMENT)
     set(timeout 1800)
   endif()
-  # Assertions cost time, so that each module runs once, on 2 ranks if it is collective.
+  # Assertions cost time, so that each module runs once, on 2 ranks if it is collective. The tests
+  # of meshes are long, and run on 1 rank.
   if(CMAKE_BUILD_TYPE STREQUAL "Debug" AND 3 IN_LIST ARG_RANKS)
     set(ARG_RANKS 2)
+    if(module MATCHES "^(geometry|mesh|contact|shape|cad)$")
+      set(ARG_RANKS 1)
+    endif()
   endif()
   foreach(ranks ${ARG_RANKS})
     set(test ${target}.np${ranks})
