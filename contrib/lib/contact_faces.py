@@ -244,7 +244,7 @@ def limits_of(curves):
 def curve_panels(curves, name, heads, label, units, known, planes):
     """Return the panels of the curves of all states; a last state that is much lower has another
     one of its own."""
-    cuts = [f"{AXES[axis]} = {place:.4g}" for axis, place, _ in planes or []]
+    cuts = [f"{AXES[axis]} = {round(place, 12) + 0.:.4g}" for axis, place, _ in planes or []]
     if len(set(cuts)) > 1:
         cuts = [f"{when} at {cut}" for when, cut in zip(("before", "after"), cuts)]
     title = ", ".join(filter(None, (name, *dict.fromkeys(cuts))))
