@@ -76,9 +76,20 @@ def draw_flat(axis, boundaries):
     axis.set_aspect("equal")
 
 
-def draw_solid(axis, boundaries, towards):
-    """Draw the faces that face the eye in the direction towards, and the name of each
-    boundary of which the eye sees a third."""
+def direction_of(elevation, azimuth):
+    up, around = np.radians((elevation, azimuth))
+    return np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+
+
+def seen_area(faces, towards):
+    """Return the area that the eye sees of faces in the direction towards."""
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    return np.maximum(normals @ towards, 0.).sum() / 2
+
+
+def draw_solid(axis, boundaries, towards, named):
+    """Draw the faces that face the eye in the direction towards, and the names of some
+    boundaries."""
     polygons, colours = [], []
     for (name, faces), colour in zip(boundaries.items(), colours_of(boundaries).values()):
         normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
@@ -86,7 +97,7 @@ def draw_solid(axis, boundaries, towards):
         seen = facing > 0.
         polygons.extend(faces[seen])
         colours.extend((0.55 + 0.45 * facing[seen, None]) * np.array(colour))
-        if np.mean(facing > 0.2) > 0.3:
+        if name in named and seen.any():
             middle = faces[seen].mean(axis=1)
             place = middle[np.argmin(np.linalg.norm(middle - middle.mean(axis=0), axis=1))]
             axis.text(*(place + 0.02 * towards), name, fontsize=8, ha="center", zorder=100,
@@ -107,16 +118,19 @@ def draw_body(path, directory):
         figure, axis = plt.subplots(figsize=(7., 6.), layout="constrained")
         draw_flat(axis, boundaries)
     else:
-        figure = plt.figure(figsize=(12., 6.), layout="constrained")
-        for place, (elevation, turn) in enumerate(((25., 35.), (-25., 215.))):
+        # Each boundary has its name in the view that shows most of it.
+        views = [(25., 35.), (-35., 215.)]
+        named = {name: max(views, key=lambda view: seen_area(faces, direction_of(*view)))
+                 for name, faces in boundaries.items()}
+        figure = plt.figure(figsize=(12., 6.))
+        figure.subplots_adjust(left=0., right=1., bottom=.1, top=.88, wspace=0.)
+        for place, view in enumerate(views):
             axis = figure.add_subplot(1, 2, place + 1, projection="3d", computed_zorder=True)
-            axis.view_init(elevation, turn)
-            up, around = np.radians((elevation, turn))
-            draw_solid(axis, boundaries, np.array(
-                [np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)]))
-            axis.set_title(f"seen from {'above' if elevation > 0. else 'below and behind'}",
-                           y=-0.05)
-    figure.suptitle(f"Boundaries of body {body}")
+            axis.view_init(*view)
+            draw_solid(axis, boundaries, direction_of(*view),
+                       {name for name, of_name in named.items() if of_name == view})
+    figure.suptitle(f"Boundaries of body {body}" +
+                    (", from above, and from below and behind" if dim == 2 else ""))
     drawing.save(figure, directory, f"faces-{body}.png")
 
 

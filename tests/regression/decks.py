@@ -55,19 +55,17 @@ LEFT_OUT = {
                             "*NODE FILE (line 148)"]}
 # A punch whose bottom is designed, on a flat block, at both of which nodes match. The rows have the
 # normal of the flat master side, so that the true surface between the nodes does not matter.
-DESIGNED = """
-set Task = optimize
+PUNCH_ON_BASE = """
 set Bodies = punch, base
 subsection Body punch
-  set Box corner = 0, 0, 1
-  set Box cells = 4, 4, 2
+{punch}
   set Young's modulus = 2000
   set Poisson's ratio = 0.3
   set Supports = left: x, right: x, front: y, back: y
   set Pressure = top: 20
 end
 subsection Body base
-  set Box cells = 4, 4, 2
+{base}
   set Young's modulus = 1000
   set Poisson's ratio = 0.25
   set Supports = bottom: xyz
@@ -76,6 +74,10 @@ subsection Contact
   set Pairs = punch.bottom: base.top
   set Slave = first
 end
+"""
+DESIGNED = PUNCH_ON_BASE.format(punch="  set Box corner = 0, 0, 1\n  set Box cells = 4, 4, 2",
+                                base="  set Box cells = 4, 4, 2") + """
+set Task = optimize
 subsection Shape
   set Basis = Bezier patch
   set Face = punch.bottom
@@ -88,32 +90,6 @@ subsection Optimization
 end
 subsection Output
   set Meshes = msh, inp
-end
-"""
-READ_BACK = """
-set Bodies = punch, base
-subsection Body punch
-  set Mesh = file
-  set File = {file}
-  set Mesh regions = punch
-  set Boundary names = {punch}
-  set Young's modulus = 2000
-  set Poisson's ratio = 0.3
-  set Supports = left: x, right: x, front: y, back: y
-  set Pressure = top: 20
-end
-subsection Body base
-  set Mesh = file
-  set File = {file}
-  set Mesh regions = base
-  set Boundary names = {base}
-  set Young's modulus = 1000
-  set Poisson's ratio = 0.25
-  set Supports = bottom: xyz
-end
-subsection Contact
-  set Pairs = punch.bottom: base.top
-  set Slave = first
 end
 """
 FACES = ("left", "right", "front", "back", "bottom", "top")
@@ -232,8 +208,10 @@ def check_read_back(runner):
     designed, output = runner.summary("designed", scene, *EXACT)
     for ending in ("msh", "inp"):
         path = runner.folder / f"read-{ending}.prm"
-        path.write_text(READ_BACK.format(file=output / f"bodies.{ending}", **{
-            body: ", ".join(f"{body}.{face}: {face}" for face in FACES)
+        path.write_text(PUNCH_ON_BASE.format(**{
+            body: f"  set Mesh = file\n  set File = {output}/bodies.{ending}\n"
+                  f"  set Mesh regions = {body}\n  set Boundary names = " +
+                  ", ".join(f"{body}.{face}: {face}" for face in FACES)
             for body in ("punch", "base")}))
         found, _ = runner.summary(f"read-{ending}", path, *EXACT)
         runner.compare(f"bodies.{ending} read back", found, designed, 1e-9)
