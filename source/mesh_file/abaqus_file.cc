@@ -294,13 +294,14 @@ private:
     sets.surfaces.insert(sets.spelling.at(key));
     for (const unsigned int element : sets.elements(words[0], prefix, "surface '" + name + "'", at))
       {
-        const auto &cell = mesh.elements[element];
+        // The cell is copied, because push_back() may move the elements.
+        const MeshFile::Element cell = mesh.elements[element];
         if (words.size() > 1)
           mesh.elements.push_back(
             face_of(cell, face_number(cell, words[1], 'S'), sets.spelling.at(key)));
         else
           for (unsigned int f = 0; f < faces_of(cell.shape).size(); ++f)
-            mesh.elements.push_back(face_of(mesh.elements[element], f, sets.spelling.at(key)));
+            mesh.elements.push_back(face_of(cell, f, sets.spelling.at(key)));
       }
   }
 
