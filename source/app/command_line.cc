@@ -163,7 +163,7 @@ also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
     --estimate          make the meshes and print the memory and the time of a run;
                         --ranks N for runs on N MPI ranks
     --translate         print the parameter file of a deck of Abaqus or CalculiX, and
-                        what of the deck it lacks, with line numbers
+                        the keywords that are not translated, with their lines
     --print-parameters  print all entries, their defaults and meanings (Markdown)
     --help, --version
 

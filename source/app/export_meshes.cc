@@ -50,7 +50,8 @@ void Results<dim>::export_meshes(const state::ContactState<dim> &state)
     if (wants("msh") && whole.hanging.empty())
       io::write_text_file(path("bodies.msh"), io::msh_text(mesh, problem->scene, whole));
     else if (wants("msh"))
-      lines.push_back("bodies.msh is not written, because the mesh has hanging nodes");
+      lines.push_back("bodies.msh is not written, because the mesh has hanging nodes: of local "
+                      "refinement, or of tetrahedra, prisms or triangles of degree 2");
     if (wants("inp"))
       {
         const auto deck = io::deck_text<dim>(*problem->solver, problem->scene, whole, frames);

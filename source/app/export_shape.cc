@@ -22,7 +22,7 @@ const double gentle = 0.5;
 /// Return whether coordinates suit splines. The length of a curve over a projection has no bound
 /// where the face is steep.
 template <int dim>
-bool suit(const shape::ShapedFace<dim> &face, const shape::FaceCoordinates<dim> &coordinates)
+bool is_suitable(const shape::ShapedFace<dim> &face, const shape::FaceCoordinates<dim> &coordinates)
 {
   const auto &kept = coordinates.projection_axes();
   for (unsigned int d = 0; d < dim && !kept.empty(); ++d)
@@ -59,7 +59,7 @@ shape::FaceCoordinates<dim> spline_coordinates(const shape::ShapedFace<dim> &fac
         parameters.coordinates = kind;
         parameters.axis        = axis;
         shape::FaceCoordinates<dim> coordinates(face, parameters);
-        if (suit(face, coordinates))
+        if (is_suitable(face, coordinates))
           return coordinates;
       }
     catch (const InputError &)
@@ -71,8 +71,9 @@ shape::FaceCoordinates<dim> spline_coordinates(const shape::ShapedFace<dim> &fac
     }
   catch (const InputError &)
     {
-      throw InputError("it is not connected, or it is no extrusion, surface of revolution or graph "
-                       "over a coordinate plane");
+      throw InputError(
+        "the face is not connected, or is not an extrusion, a surface of revolution or a "
+        "graph over a coordinate plane");
     }
 }
 
@@ -111,8 +112,8 @@ void add_loops(const shape::FaceChart<3> &chart, cad::SplineFace &face)
   if (chart.fills_rectangle())
     return;
   if (chart.is_closed(0) || chart.is_closed(1))
-    throw InputError("it surrounds the body and has a border other than the ends of its "
-                     "coordinates; cut the face in two");
+    throw InputError("the face surrounds the body and has a border other than the ends of its "
+                     "coordinates; divide the face into two boundaries");
   for (const auto &loop : chart.loops())
     {
       face.loops.emplace_back();

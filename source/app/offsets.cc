@@ -1,9 +1,9 @@
 #include <snug/app/offsets.h>
 #include <snug/faces/nodal_normals.h>
+#include <snug/optimization/dense_vectors.h>
 #include <snug/state/rigid_modes.h>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 namespace snug::app {
@@ -55,21 +55,12 @@ struct MovedNodes
   std::vector<Vector> normals;
 };
 
-double product(const std::vector<double> &a, const std::vector<double> &b)
-{
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
-}
-
 /// Subtract from @p v its components along the orthonormal @p basis.
 void project_out(const std::vector<std::vector<double>> &basis, std::vector<double> &v)
 {
   for (unsigned int sweep = 0; sweep < 2; ++sweep) // twice because of round-off
     for (const auto &q : basis)
-      {
-        const double factor = product(q, v);
-        for (unsigned int i = 0; i < v.size(); ++i)
-          v[i] -= factor * q[i];
-      }
+      optimization::add(v, -optimization::dot(q, v), q);
 }
 
 /// Return an orthonormal basis of the normal components of the moves of the nodes.
@@ -84,9 +75,9 @@ std::vector<std::vector<double>> normal_moves(const shape::Shapes<dim> &shapes,
       std::vector<double> v;
       for (unsigned int node = 0; node < nodes.n(); ++node)
         v.push_back(moves[node] * nodes.normals[node]);
-      const double size = product(v, v);
+      const double size = optimization::dot(v, v);
       project_out(basis, v);
-      const double left = product(v, v);
+      const double left = optimization::dot(v, v);
       if (left <= 1e-16 * size || size == 0.)
         continue;
       for (double &component : v)
@@ -160,7 +151,7 @@ double held_square(const ShapeProblem<dim>      &problem,
             direction[support.component] = 1.;
           }
       const auto held = nodes.along(directions, centre, length, motion);
-      result += product(held, held) / nodes.n();
+      result += optimization::dot(held, held) / nodes.n();
     }
   return result;
 }
@@ -196,9 +187,9 @@ warning(const ShapeProblem<dim> &problem, const unsigned int body, const Boundar
       for (unsigned int k = 0; k < meaning.n_rigid_motions(); ++k)
         {
           auto         left  = nodes.along(nodes.normals, centre, length, k);
-          const double whole = product(left, left) / nodes.n();
+          const double whole = optimization::dot(left, left) / nodes.n();
           project_out(basis, left);
-          if (whole > 1e-3 && product(left, left) / nodes.n() < negligible * whole &&
+          if (whole > 1e-3 && optimization::dot(left, left) / nodes.n() < negligible * whole &&
               held_square(problem, bodies, centre, length, k) < negligible * whole)
             motions +=
               (motions.empty() ? "" : " and ") + motion_name(dim, meaning.is_axisymmetric(), k);
@@ -207,9 +198,9 @@ warning(const ShapeProblem<dim> &problem, const unsigned int body, const Boundar
         names += (names.empty() ? "" : ", ") + problem.solver->model().body_names[other];
       if (!motions.empty())
         return "designs can move the shaped face of " + problem.solver->model().body_names[body] +
-               " as a whole " + motions + ", which displaces " + names +
-               " instead of changing the contact; use 'Fixed' for a control point, or a "
-               "constraint on the volume";
+               " as a whole " + motions + "; this motion displaces " + names +
+               " instead of changing the contact; set 'Fixed' for a control point, or add "
+               "a constraint on the volume";
     }
   return "";
 }

@@ -154,7 +154,8 @@ faces_called(const std::vector<FaceInfo> &faces, const std::string &item, const 
       result.insert(f);
   if (result.empty())
     throw bad_entry("CAD faces", given,
-                    "'" + item + "' is no face of the file; the faces are numbered from 1 to " +
+                    "'" + item +
+                      "' is not a face of the CAD file; the faces have the numbers 1 to " +
                       std::to_string(faces.size()) + ", and '--validate' lists them");
   return result;
 }

@@ -187,9 +187,7 @@ TopoDS_Shape chosen(const TopTools_IndexedMapOfShape &all,
 
 void require_in_plane(const TopoDS_Shape &shape, const std::string &path)
 {
-  double                        lower[3], upper[3];
   const GeomLib_IsPlanarSurface test(BRep_Tool::Surface(TopoDS::Face(shape)), 1e-7);
-  box_of(shape).Get(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
   if (!test.IsPlanar() || std::abs(test.Plan().Axis().Direction().Z()) < 1. - 1e-12)
     throw file_error(path, "must contain a face in the xy plane for a model with Dimension = 2");
 }

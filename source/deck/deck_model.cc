@@ -208,7 +208,7 @@ private:
       {
         if (bodies.nodes_without_face(set) > 0)
           left_out.add(title_of(keyword) + ": nodes of '" + set +
-                         "' on no face whose nodes are all in the set",
+                         "' without a face whose nodes are all in the set",
                        line);
         return true;
       }

@@ -1,6 +1,5 @@
 #include <snug/deck/left_out.h>
 
-#include <algorithm>
 
 namespace snug::deck {
 std::string list_of_lines(const std::vector<unsigned long> &lines)

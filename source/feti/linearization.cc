@@ -214,8 +214,8 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   return forces;
 }
 
-/// Return F x = B K^+ B' x + D x. K^+ is one of many generalized inverses. The F of another one
-/// differs by some G'X + X'G, which vanishes in P F P.
+/// Return F x = B K^+ B' x + D x. K^+ is one of many generalized inverses. Another generalized
+/// inverse changes F by a term G'X + X'G, which vanishes in P F P.
 qp::MultiVector Linearization::apply(const qp::MultiVector &x) const
 {
   // A block of k columns counts as k F-mults, though it is one pass over the factors.

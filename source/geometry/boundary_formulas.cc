@@ -198,7 +198,7 @@ private:
       text << "must follow the edges of faces, but cuts " << counted(cut.n, "face")
            << ", the first at (" << cut.place << "), on an edge of the length " << cut.length;
     if (size > 0.)
-      text << "; cells of the size " << size << " would fit there";
+      text << "; cells of the size " << size << " have nodes there";
     else if (cut.n > 0)
       text << "; move the nodes there by the numbers or sizes of cells";
     else if (n_faces == 0)

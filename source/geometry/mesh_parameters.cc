@@ -86,10 +86,11 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
     "The sets of the mesh file that are boundaries of the body: sets of faces, and node "
     "sets of Abaqus, which stand for the faces whose nodes are all in the set. Faces in "
     "the sets a and b are the boundary 'a and b'. An empty list means all sets of faces.");
-  entries.add("Boundary names", mesh.boundary_numbers,
-              allowed("a list 'number: name, ...' of different numbers"),
-              "The names of groups of faces that have only numbers in the file, such as physical "
-              "groups of Gmsh without a name: '1: bottom, 7: bore'.");
+  entries.add(
+    "Boundary names", mesh.boundary_numbers,
+    allowed("a list 'group: name, ...' of different groups"),
+    "The names of boundaries by the number or name of their group of faces in the mesh "
+    "file. Groups without a name need this entry, such as those of Gmsh: '1: bottom, 7: bore'.");
   entries.add(
     "Surface", mesh.surfaces,
     with_meanings(
@@ -107,7 +108,7 @@ void declare_cad(Entries &entries, BodyMeshParameters &mesh)
 {
   entries.add("Solid", mesh.solid,
               "The number of the solid of a CAD file that is the body, in 2D of the plane face. A "
-              "value of 0 means the only one.");
+              "value of 0 means the only solid or plane face.");
   entries.add(
     "CAD faces", access(mesh.cad_faces, ';'),
     with_meanings(
@@ -123,8 +124,9 @@ void declare_cad(Entries &entries, BodyMeshParameters &mesh)
     "name, in 2D edge-3.");
   entries.add(
     "Element size", mesh.element_size,
-    "The length of the edges of the elements of a CAD file, which has no default. Faces with a "
-    "radius of curvature R have elements of R/2, but at least a tenth of this size. Units: length, "
+    "The length of the edges of the elements of a CAD file, which must be given. Faces with a "
+    "radius of curvature R have elements of the size R/2, but at least a tenth of this size. "
+    "Units: length, "
     "before 'Scale'.");
   entries.add("Face sizes", mesh.face_sizes, allowed("a list 'boundary: size, boundary: size'"),
               "The size of the elements on boundaries of a CAD file: 'race: 0.1, bore: 0.5'. "

@@ -130,12 +130,6 @@ private:
     if (side.boundaries().size() == 1)
       return deck_name(
         boundary_name(mesh, scene, side.boundaries()[0].first, side.boundaries()[0].second));
-    const std::string sides[6] = {dim == 2 ? "S4" : "S6",
-                                  dim == 2 ? "S2" : "S4",
-                                  dim == 2 ? "S1" : "S3",
-                                  dim == 2 ? "S3" : "S5",
-                                  "S1",
-                                  "S2"};
     out += "*SURFACE, NAME=" + name + ", TYPE=ELEMENT\n";
     for (const auto &face : whole.faces)
       if (contact::is_on(face, side))

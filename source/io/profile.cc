@@ -4,8 +4,6 @@
 #include <snug/io/text_file.h>
 
 #include <limits>
-#include <map>
-#include <set>
 
 namespace snug::io {
 namespace {

@@ -204,8 +204,8 @@ std::string straightening_warning(const std::size_t                      n_patch
   std::ostringstream text;
   text
     << std::setprecision(2) << n_patches
-    << " curved edges and faces were moved towards straight ones, because cells at them would be "
-       "too thin: maximum distance from the true surface "
+    << " curved edges and faces were moved towards straight ones, because the cells beside these "
+       "edges and faces would be too thin: maximum distance from the true surface "
     << distance << " (" << 100. * distance / size
     << " % of the size of the body); smaller elements keep the true surface";
   return text.str();

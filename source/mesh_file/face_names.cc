@@ -130,7 +130,7 @@ void FaceNames::name_optional(const std::string &name)
         of_body.insert(corner);
   if (!of_body.empty() && !used.empty())
     notes.push_back(counted(of_body.size(), "node") + " of the set '" + name +
-                    "' on no face whose nodes are all in the set");
+                    "' without a face whose nodes are all in the set");
 }
 
 /// Throw unless the boundary set @p name has a face of the body.

@@ -86,11 +86,6 @@ std::string printable(std::string text)
   return text;
 }
 
-std::vector<std::string> comma_list(const std::string &line)
-{
-  return dealii::Utilities::split_string_list(line);
-}
-
 double to_number(const std::string &word, const unsigned long line)
 {
   char        *end   = nullptr;

@@ -190,7 +190,7 @@ void Body::declare(Entries &entries)
     "The temperature above that of the unstressed body, a number or a formula of x, y, z in "
     "the reference geometry, which causes the thermal strain 'Expansion' times "
     "'Temperature': '80 + 20*x'. The temperature moves with the material. Units: "
-    "temperature. An empty value means none.");
+    "temperature. An empty value means no thermal strain.");
 }
 
 void check_body(const Scene &scene, const SectionCheck &section, const Body &body)

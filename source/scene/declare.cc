@@ -64,8 +64,8 @@ void declare_general(Entries &entries, Scene &scene)
               "is created if it does not exist.");
   entries.add("Element degree", degree_or_auto(scene.degree),
               with_meanings(choice({{"auto"}, {"1"}, {"2"}}),
-                            {{"auto", "2 if a mesh file of a body has tetrahedra or prisms, in 2D "
-                                      "triangles; 1 otherwise"},
+                            {{"auto", "2 if a mesh file or a mesh of a CAD file has tetrahedra or "
+                                      "prisms, in 2D triangles; 1 otherwise"},
                              {"1", "bilinear in 2D, trilinear in 3D"},
                              {"2", "biquadratic in 2D, triquadratic in 3D; quadratic on the "
                                    "elements of mesh files that are split into cells, see "

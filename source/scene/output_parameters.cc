@@ -32,7 +32,7 @@ void OutputParameters::declare(Entries &entries)
            {"inp", "bodies.inp: deck of CalculiX and Abaqus with the mesh, sets, materials, "
                    "contact pairs, supports and loads of the first load case"}}),
     "The formats in which the bodies of the last design are written, with the positions of the "
-    "nodes without a load. An empty list means none.");
+    "nodes without a load. An empty list means that no mesh is written.");
   entries.add(
     "Profile deviation", profile_deviation, at_least(0.),
     "The maximum distance of the B-splines in profile.step from the shaped faces, relative to the "

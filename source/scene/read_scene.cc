@@ -203,7 +203,7 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
     }
 }
 
-/// Return whether a mesh file of the body has elements with triangles.
+/// Return whether the mesh of a mesh file or CAD file of the body has elements with triangles.
 bool has_triangles(const Body &body)
 {
   const auto any = [](const auto &mesh) {

@@ -237,7 +237,8 @@ std::vector<typename FaceChart<dim>::Loop> FaceChart<dim>::loops() const
             {
               const auto found = next.find(node);
               if (found == next.end())
-                throw InputError("the edges of the mesh along its border do not form closed loops");
+                throw InputError(
+                  "the edges of the mesh along the border of the face do not form closed loops");
               const auto &piece = found->second.second;
               points.insert(points.end(), piece.begin(), piece.end() - 1);
               node = found->second.first;

@@ -121,23 +121,24 @@ FaceCoordinates<dim>::FaceCoordinates(const ShapedFace<dim> &face,
     kept_axes = graph_axes(face);
   if (!kept_axes.empty())
     {
-      project();
+      set_projection();
       return;
     }
   if (chosen == Coordinates::projection)
     throw bad_entry(parameters.path("Face"), parameters.face,
-                    "must have normals that differ by at most 90 degrees for Coordinates = "
-                    "projection; use arc length or angle");
+                    "must have normals within 84 degrees of their mean and within 90 degrees of a "
+                    "coordinate axis for Coordinates = projection; use arc length or angle");
   const auto points = face_points(face);
   if (automatic)
     chosen = dim == 3 && revolution_axes(face, points, parameters).size() == 1
                ? Coordinates::angle
                : Coordinates::arc_length;
-  chosen == Coordinates::angle ? turn(points, parameters) : unroll(points, parameters);
+  chosen == Coordinates::angle ? set_angles(points, parameters)
+                               : set_arc_lengths(points, parameters);
 }
 
 template <int dim>
-void FaceCoordinates<dim>::project()
+void FaceCoordinates<dim>::set_projection()
 {
   chosen                       = Coordinates::projection;
   const auto        &positions = face.positions();
@@ -158,7 +159,7 @@ void FaceCoordinates<dim>::project()
 }
 
 template <int dim>
-void FaceCoordinates<dim>::turn(const FacePoints &points, const ShapeParameters &parameters)
+void FaceCoordinates<dim>::set_angles(const FacePoints &points, const ShapeParameters &parameters)
 {
   const auto found = revolution_axes(face, points, parameters);
   const auto fail  = [&](const std::string &entry, const std::string &value,
@@ -177,7 +178,7 @@ void FaceCoordinates<dim>::turn(const FacePoints &points, const ShapeParameters 
   if (found.empty())
     fail("Coordinates", to_text(parameters.coordinates),
          "must not be angle for the face " + parameters.face +
-           ", which is no surface of revolution about the axis x, y or z; give 'Axis'");
+           ", which is not a surface of revolution about the axis x, y or z; set 'Axis'");
   if (found.size() > 1)
     fail("Axis", to_text(parameters.axis),
          "must be given: the face " + parameters.face +
@@ -193,7 +194,8 @@ void FaceCoordinates<dim>::turn(const FacePoints &points, const ShapeParameters 
 }
 
 template <int dim>
-void FaceCoordinates<dim>::unroll(const FacePoints &points, const ShapeParameters &parameters)
+void FaceCoordinates<dim>::set_arc_lengths(const FacePoints      &points,
+                                           const ShapeParameters &parameters)
 {
   std::optional<Vector> direction;
   if (dim == 2)

@@ -53,7 +53,7 @@ void declare_modes(Entries &entries, ShapeParameters &shape)
   entries.add(
     "Control points", shape.control_points,
     "The numbers of control points along s and t of the face, or along x, y, z of the box. Control "
-    "points are numbered along the first of them first.");
+    "points are numbered along s first, or along x first.");
   entries.add(
     "Degree", shape.degree,
     "The degree of B-splines, at least 1 and below the number of control points along each edge. "

@@ -131,13 +131,13 @@ typename Springs<dim>::Nodes Springs<dim>::at_face(const unsigned int  face,
   return result;
 }
 
-/// Return a traction of @p factor along the first axis at the Gauss point of the place alone.
+/// Return a traction of the stiffness along the first axis at the Gauss point of the place alone.
 template <int dim>
-elasticity::FaceLoadValues<dim> Springs<dim>::load_of(const Place &place, const double factor) const
+elasticity::FaceLoadValues<dim> Springs<dim>::load_of(const Place &place) const
 {
   elasticity::FaceLoadValues<dim> load;
   load.traction.resize(shape.n_nodes()); // as many as Gauss points
-  load.traction[place.gauss_point][0] = factor;
+  load.traction[place.gauss_point][0] = place.stiffness;
   return load;
 }
 
@@ -150,7 +150,7 @@ double Springs<dim>::stiffness(const Place        &place,
 {
   if (groups[place.group].spring->place)
     return velocity ? 0. : place.stiffness;
-  const auto load = load_of(place, place.stiffness);
+  const auto load = load_of(place);
   Nodes      f;
   if (velocity)
     face_load.force_derivative(at_face(place.face, x), at_face(place.face, *velocity), load, {}, f);
@@ -300,8 +300,7 @@ void Springs<dim>::add_energy_gradient(const Field               &positions,
           Nodes        along(nodes.size()), values(nodes.size());
           for (auto &vector : along)
             vector[0] = 1.;
-          face_load.add_force_gradient(at_face(place.face, x), load_of(place, place.stiffness),
-                                       along,
+          face_load.add_force_gradient(at_face(place.face, x), load_of(place), along,
                                        factor * forces_of_u[i] * forces_of_w[i] / (kappa * kappa),
                                        values);
           for (unsigned int a = 0; a < nodes.size(); ++a)

@@ -75,7 +75,8 @@ public:
 
   /// Return the maximum violation of a constraint, relative to its limit, and the name of the
   /// constraint as in the scene, such as "volume <= initial". The last of @p values are those of
-  /// the responses that the constraints limit. {0, ""} if the values satisfy all constraints.
+  /// the responses that the constraints limit. Return {0, ""} if the values satisfy all
+  /// constraints.
   std::pair<double, std::string> most_violated(const std::vector<double> &values) const;
 
   /// Run a new contact search at @p design, after which earlier states are invalid.

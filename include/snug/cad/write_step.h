@@ -3,7 +3,6 @@
 
 #include <deal.II/base/point.h>
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -62,8 +62,8 @@ struct DeckModel
   std::string                         model = "solid";
 };
 
-/// Read the keywords of a deck. What is not read is added to @p left_out. @throws InputError
-/// "line 17: message".
+/// Read the keywords of a deck. Keywords and options that are not read are added to @p left_out.
+/// @throws InputError "line 17: message".
 DeckModel read_model(const mesh_file::DeckText &text,
                      const mesh_file::DeckMesh &deck,
                      DeckBodies                &bodies,

@@ -10,7 +10,7 @@ namespace snug::deck {
 /// lines)".
 std::string list_of_lines(const std::vector<unsigned long> &lines);
 
-/// This class collects what a translation lacks, by kind, with the lines of the deck.
+/// This class collects the keywords that are not translated, by kind, with their lines in the deck.
 class LeftOut
 {
 public:

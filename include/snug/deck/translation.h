@@ -9,7 +9,7 @@ namespace snug::deck {
 struct Translation
 {
   std::string              text;     ///< parameter file, with the lines of the deck as comments
-  std::vector<std::string> left_out; ///< what the file lacks, "*NODE FILE (line 17): reason"
+  std::vector<std::string> left_out; ///< keywords that are not translated, "*NODE FILE (line 17)"
 };
 
 /// Return whether @p text is a deck of Abaqus or CalculiX: its first word begins with *.

@@ -26,8 +26,8 @@ struct SharedOperators
  * @f[ F = B K^+ B^T + D,\quad G = R^T B^T, @f]
  * the preconditioner and the soft modes. D is the diagonal matrix of the compliances of springs,
  * zero on other rows. A spring acts like a further subdomain with one unknown, the stiffness 1/D
- * and no rigid motion, which is glued to the body by its row. All loads of the geometry share it.
- * Subdomains with equal matrices share one factorization.
+ * and no rigid motion, which is glued to the body by its row. All loads of the geometry share one
+ * Linearization. Subdomains with equal matrices share one factorization.
  *
  * Source: Dostál, Horák, Kučera, Commun. Numer. Meth. Engng 22 (2006).
  */

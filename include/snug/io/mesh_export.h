@@ -32,7 +32,7 @@ template <int dim>
 std::string
 msh_text(const mesh::BodyMesh<dim> &mesh, const scene::Scene &scene, const WholeMesh<dim> &whole);
 
-/// A deck, and what of the model it lacks.
+/// A deck, and the parts of the model that the deck does not contain.
 struct DeckExport
 {
   std::string              text;

@@ -65,9 +65,6 @@ InputError error_at_line(unsigned long line, const std::string &message);
 /// contain words of any length.
 std::string printable(std::string text);
 
-/// Return the parts of a line between commas, without blanks at their ends.
-std::vector<std::string> comma_list(const std::string &line);
-
 /// Return @p word as a finite number, or as an integer >= 0. @throws InputError at @p line.
 double        to_number(const std::string &word, unsigned long line);
 unsigned long to_whole(const std::string &word, unsigned long line);

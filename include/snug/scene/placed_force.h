@@ -6,7 +6,7 @@
 
 namespace snug::scene {
 /// A force at a point, 'FX FY FZ at X Y Z', or per length along a line, 'FX FY FZ from X Y Z to X Y
-/// Z' or 'FX FY FZ along BOUNDARY'. What the text does not give is empty.
+/// Z' or 'FX FY FZ along BOUNDARY'. Members that the text does not give are empty.
 struct PlacedForce
 {
   std::vector<double> force;    ///< [force], along a line [force / length]

@@ -43,10 +43,10 @@ public:
   point_at(const std::vector<double> &fractions, const Field &directions) const;
 
 private:
-  void                   project();
-  void                   turn(const FacePoints &points, const ShapeParameters &parameters);
-  void                   unroll(const FacePoints &points, const ShapeParameters &parameters);
-  dealii::Tensor<1, dim> flattened(const std::vector<double> &coordinates) const;
+  void set_projection();
+  void set_angles(const FacePoints &points, const ShapeParameters &parameters);
+  void set_arc_lengths(const FacePoints &points, const ShapeParameters &parameters);
+  dealii::Tensor<1, dim>              flattened(const std::vector<double> &coordinates) const;
   std::vector<dealii::Tensor<1, dim>> flattened(const std::vector<unsigned int> &points,
                                                 const dealii::Tensor<1, dim>    &target) const;
 

@@ -47,7 +47,8 @@ enum class Coordinates
 };
 inline Names names(Coordinates)
 {
-  return {{"auto", "projection if normals differ by at most 90 degrees, else angle for surfaces of "
+  return {{"auto", "projection if all normals are within 84 degrees of their mean and within 90 "
+                   "degrees of a coordinate axis, else angle for surfaces of "
                    "revolution, else arc length"},
           {"projection", "positions along the coordinate axes other than the axis closest to the "
                          "normal"},

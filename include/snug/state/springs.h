@@ -95,7 +95,7 @@ private:
   double stiffness(const Place        &place,
                    const SurfaceField &x,
                    const SurfaceField *velocity = nullptr) const;
-  elasticity::FaceLoadValues<dim> load_of(const Place &place, double factor) const;
+  elasticity::FaceLoadValues<dim> load_of(const Place &place) const;
   dealii::Tensor<1, dim>          sum(const Place &place, const SurfaceField &field) const;
   SpringRow<dim>                  row(const Place &place, const dealii::Tensor<1, dim> &q) const;
   SurfaceField                    normals(const Group &group, const SurfaceField &x) const;

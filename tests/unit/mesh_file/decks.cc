@@ -80,7 +80,8 @@ TEST(Decks, NodesWithoutAFaceAreCounted)
                                     "*NSET, NSET=some\n1, 9, 10, 3, 6\n*ELSET,ELSET=block"),
                            part("block", {"some"}), 3);
   ASSERT_EQ(mesh->notes.size(), 1u);
-  EXPECT_EQ(mesh->notes[0], "1 node of the set 'some' on no face whose nodes are all in the set");
+  EXPECT_EQ(mesh->notes[0],
+            "1 node of the set 'some' without a face whose nodes are all in the set");
 }
 
 TEST(Decks, ConnectedCellsWithoutASetAreABody)
