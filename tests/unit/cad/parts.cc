@@ -191,7 +191,7 @@ TEST(Cad, wrong_parts_are_refused_on_all_ranks)
   expect(pin, 3, "Element size", "more than a million elements");
   pin.element_size = 0.5;
   pin.cad_faces    = {{"a", "5"}};
-  expect(pin, 3, "CAD faces", "numbered from 1 to 4");
+  expect(pin, 3, "CAD faces", "the numbers 1 to 4");
   pin.cad_faces = {{"a", "1"}, {"b", "chain 2"}};
   expect(pin, 3, "CAD faces", "face 1 belongs to the boundary 'a' as well");
   pin.cad_faces  = {};
