@@ -16,13 +16,16 @@ void AccuracyParameters::declare(Entries &entries)
                    {"tip: 0.02",
                     "absolute error in the units of the response, at least 1e-8 % of its "
                     "value"}}),
-    "The maximum estimated errors of responses in all load cases, to which the mesh is refined. "
+    "The maximum estimated errors of responses in all load cases, to which the mesh is refined: "
+    "bodies of CAD files are meshed anew with smaller elements, and cells of other bodies are "
+    "divided. "
     "Names are those of 'Responses' or quantities. An optimization needs a target for its "
     "objective "
     "and uses meshes for 8, 3 and 1 times the targets. An empty list means the mesh as given.");
   entries.add("Maximum levels", maximum_levels, between(1., 20.),
               "The maximum refinement level of a cell above the coarse cells, including "
-              "'Refinements'.");
+              "'Refinements'. Of a body of a CAD file, the maximum number of meshes with smaller "
+              "elements.");
   entries.add("Maximum unknowns", maximum_unknowns, positive(),
               "The maximum number of unknowns of a mesh that is solved.");
   entries.add("Marking share", marking_share, between(0.05, 0.95),
@@ -36,7 +39,8 @@ void AccuracyParameters::declare(Entries &entries)
     "Verify", verify,
     with_meanings(allowed("auto, true or false"),
                   {{"auto", "true if the finer mesh has at most 10,000 unknowns"}}),
-    "Whether to check the targets on the mesh with all cells refined once. If a target is "
+    "Whether to check the targets on the mesh with all cells refined once, and the elements of "
+    "CAD files halved. If a target is "
     "missed, that mesh is refined further.");
 }
 

@@ -18,44 +18,44 @@
 
 namespace snug::app {
 template <int dim>
-void Adaptation<dim>::start(const Design &design, const RefinedCells &cells)
+void Adaptation<dim>::start(const Design &design, const Refinement &refinement)
 {
   solved.reset();
   finer_stage.reset();
-  finer.clear();
+  finer           = {};
   finer_is_enough = true;
   n_doubtful      = 0;
   summary         = {};
   unresolved.clear();
   at     = design;
-  solved = stage(first_mesh(cells), first_tolerance(cells));
-  if (cells.empty())
+  solved = stage(first_mesh(refinement), first_tolerance(refinement));
+  if (refinement.empty())
     solved->problem->check_overlaps();
   set_demands();
   solve(*solved, {});
 }
 
-/// Return the mesh of the scene with @p cells refined, and with further cells that the loads, the
+/// Return the mesh of the scene with @p refinement, and with further refinement that the loads, the
 /// surfaces and the contact of the scene need. Collective.
 template <int dim>
-typename Adaptation<dim>::Mesh Adaptation<dim>::first_mesh(const RefinedCells &cells)
+typename Adaptation<dim>::Mesh Adaptation<dim>::first_mesh(const Refinement &refinement)
 {
-  const bool is_known = cells.empty() && first_cells;
-  refined             = is_known ? *first_cells : cells;
+  const bool is_known = refinement.empty() && first;
+  refined             = is_known ? *first : refinement;
   if (!is_known)
     resolve_data();
   auto mesh = matched_mesh(refined);
-  if (cells.empty())
-    first_cells = refined;
+  if (refinement.empty())
+    first = refined;
   return mesh;
 }
 
 /// Cells that were refined for the targets have errors of the size of the targets.
 template <int dim>
-double Adaptation<dim>::first_tolerance(const RefinedCells &cells) const
+double Adaptation<dim>::first_tolerance(const Refinement &refinement) const
 {
   double result = accuracy::first_tolerance;
-  if (!cells.empty())
+  if (!refinement.empty())
     for (const auto &target : scene.accuracy.targets)
       result = std::min(result, accuracy::step_tolerance(accuracy::read_target(target.second).value,
                                                          false, least()));
@@ -104,42 +104,53 @@ accuracy::Measured Adaptation<dim>::objective() const
 /// by a face on both bodies, without a limit to the end of the side.
 constexpr unsigned int most_passes = 8;
 
-/// Return the forest of the scene in which the cells of @p cells have children. The forest of the
-/// mesh before is refined further if @p cells contain its cells. Collective.
+/// Return the forest of the scene with a refinement. The forest of the mesh before is refined
+/// further if no body is meshed anew and the refinement has the divided cells of this forest.
+/// Collective.
 template <int dim>
-const mesh::Forest<dim> &Adaptation<dim>::forest_with(const RefinedCells &cells)
+const mesh::Forest<dim> &Adaptation<dim>::forest_with(const Refinement &refinement)
 {
-  if (!forest || !std::includes(cells.begin(), cells.end(), in_forest.begin(), in_forest.end()))
+  if (refinement.remesh(scene, context.communicator()))
+    forest.reset();
+  if (!forest)
+    {
+      forest = build_forest<dim>(scene, context.communicator());
+      in_forest.clear();
+    }
+  const auto cells = refinement.cells<dim>(forest->coarse().places);
+  if (!std::includes(cells.begin(), cells.end(), in_forest.begin(), in_forest.end()))
     forest = build_forest<dim>(scene, context.communicator());
   forest->refine(cells);
   in_forest = cells;
   return *forest;
 }
 
-/// Return the mesh of the scene with @p cells refined. Cells that are coarser than the cells of the
-/// opposite side of a contact are added to @p cells. Collective.
+/// Return the mesh of the scene with a refinement. Cells that are coarser than the cells of the
+/// opposite side of a contact are added to @p refinement. CAD files are meshed only once for this,
+/// because Gmsh does not attain the element sizes exactly. Collective.
 template <int dim>
-typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(RefinedCells &cells)
+typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(Refinement &refinement)
 {
   began = context.seconds();
   const RunContext::Timer timer(context, "setup");
   for (unsigned int pass = 0; pass < most_passes; ++pass)
     {
-      const auto                  given = cells;
-      const auto                  mesh  = build_mesh(scene, forest_with(cells), false);
+      const auto                  given = refinement;
+      const auto                  mesh  = build_mesh(scene, forest_with(refinement), false);
       const auto                  pairs = build_pairs(scene, *mesh);
       const mesh::Surface<dim>    surface(*mesh, contact::boundaries_of(pairs));
       const faces::FaceShape<dim> shape(mesh->degree());
       for (const auto &joined :
            contact::join_pairs(surface, shape, pairs, surface.reference_positions()))
-        add(mesh::gather_cells(*mesh, surface.cells_of(
+        add(*mesh, given,
+            mesh::gather_cells(*mesh, surface.cells_of(
                                         contact::coarse_faces(surface, shape, joined.pair,
                                                               surface.reference_positions()))),
-            cells);
-      if (cells == given)
+            refinement, pass == 0);
+      if (refinement == given)
         break;
     }
-  return build_mesh(scene, forest_with(cells));
+  return build_mesh(scene, forest_with(refinement));
 }
 
 /// Return the problem on a mesh, with a contact search at the design. Collective.
@@ -286,9 +297,9 @@ std::string Adaptation<dim>::reach(const double factor)
     demand.factor = factor;
   while (true)
     {
-      RefinedCells cells    = refined;
-      const bool   doubtful = !is_at_rest() && add_doubtful(cells);
-      n_doubtful            = doubtful ? n_doubtful + 1 : 0;
+      Refinement next     = refined;
+      const bool doubtful = !is_at_rest() && add_doubtful(next);
+      n_doubtful          = doubtful ? n_doubtful + 1 : 0;
       std::string why;
       if (!doubtful)
         {
@@ -303,7 +314,7 @@ std::string Adaptation<dim>::reach(const double factor)
         return why;
       if (!doubtful)
         {
-          add_marked(cells);
+          add_marked(next);
           summary.met = true;
           for (unsigned int d = 0; d < demands.size(); ++d)
             summary.met = summary.met && is_met(d);
@@ -315,29 +326,30 @@ std::string Adaptation<dim>::reach(const double factor)
             }
         }
       else if (n_doubtful > 1)
-        add_marked_beside(cells);
-      if (cells == refined && !is_rough())
+        add_marked_beside(next);
+      if (next == refined && !is_rough())
         return missed("increase 'Maximum levels', or relax 'Target'");
-      why = go_on(cells);
+      why = go_on(next);
       if (!why.empty())
         return missed(why);
     }
 }
 
-/// To the mesh of @p cells. @return why there is none; empty: it is solved. Collective.
+/// Solve on the mesh with the refinement @p next. Return why there is no solution; empty: there is
+/// one. Collective.
 template <int dim>
-std::string Adaptation<dim>::go_on(RefinedCells &cells)
+std::string Adaptation<dim>::go_on(Refinement &next)
 {
   try
     {
-      auto mesh = matched_mesh(cells);
+      auto mesh = matched_mesh(next);
       if (!fits(*mesh))
         return "the next mesh has " + std::to_string(unknowns(*mesh)) +
                " unknowns: increase 'Maximum unknowns', or relax 'Target'";
       // The mesh that is solved from goes only when the next one is solved.
-      auto next = solve_next(std::move(mesh));
-      solved    = std::move(next);
-      refined   = cells;
+      auto stage = solve_next(std::move(mesh));
+      solved     = std::move(stage);
+      refined    = next;
       return "";
     }
   // The scene is right, as the meshes before were solved.

@@ -2,18 +2,72 @@
 #include <snug/accuracy/underresolved_contact.h>
 #include <snug/app/adaptation.h>
 #include <snug/base/errors.h>
+#include <snug/geometry/body_sources.h>
 #include <snug/mesh/refined_cells.h>
 
 #include <algorithm>
 #include <iterator>
 
 namespace snug::app {
+namespace {
+/// Return the centres of cells of the body of a CAD file, in the coordinates of the file.
 template <int dim>
-void Adaptation<dim>::add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const
+std::vector<dealii::Point<3>> places_in_file(const geometry::BodyMeshParameters &parameters,
+                                             const geometry::CoarseCells<dim>   &coarse,
+                                             const std::vector<dealii::CellId>  &cells)
 {
+  const auto                    in_file = geometry::make_imported<dim>(parameters);
+  std::vector<dealii::Point<3>> places;
+  for (const auto &cell : cells)
+    {
+      const auto x = in_file->position(coarse.point(cell, geometry::unit_centre<dim>()));
+      places.emplace_back(x[0], x[1], dim == 3 ? x[dim - 1] : 0.);
+    }
+  return places;
+}
+} // namespace
+
+/// Add the cells @p marked of the mesh that was made last, which has the refinement @p of_mesh.
+/// Elements of CAD files are halved at the centres of these cells.
+template <int dim>
+void Adaptation<dim>::add(const mesh::BodyMesh<dim>         &mesh,
+                          const Refinement                  &of_mesh,
+                          const std::vector<dealii::CellId> &marked,
+                          Refinement                        &to,
+                          const bool                         mesh_files_anew) const
+{
+  const auto                                         &coarse = mesh.coarse_cells();
+  std::map<unsigned int, std::vector<dealii::CellId>> of_files;
   for (const auto &cell : marked)
-    if (mesh::level(cell) < scene.accuracy.maximum_levels)
-      mesh::refine(cell, cells);
+    {
+      const unsigned int body = coarse.body(cell);
+      if (scene.bodies[body].mesh.source == geometry::Source::cad)
+        of_files[body].push_back(cell);
+      else if (mesh::level(cell) < scene.accuracy.maximum_levels)
+        to.divide(body, coarse.in_body(cell));
+    }
+  for (const auto &[body, cells] : of_files)
+    if (const auto n = of_mesh.n_halvings(body);
+        mesh_files_anew && n < scene.accuracy.maximum_levels)
+      to.halve(body, n, places_in_file<dim>(scene.bodies[body].mesh, coarse, cells));
+}
+
+/// Return the refinement with all cells of the last mesh divided and all elements halved.
+/// Collective.
+template <int dim>
+Refinement Adaptation<dim>::refined_everywhere() const
+{
+  Refinement  result = refined;
+  const auto &mesh   = *solved->problem->mesh;
+  const auto  cells  = mesh::all_cells(mesh);
+  for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].mesh.source == geometry::Source::cad)
+      result.halve(b, refined.n_halvings(b), {});
+  for (const auto &cell : cells)
+    if (const auto body = mesh.coarse_cells().body(cell);
+        scene.bodies[body].mesh.source != geometry::Source::cad)
+      result.divide(body, mesh.coarse_cells().in_body(cell));
+  return result;
 }
 
 template <int dim>
@@ -26,7 +80,7 @@ bool Adaptation<dim>::reads_pressure() const
 /// Cells of contacts of too few faces, if a response reads their pressure, of those all but closed,
 /// and of gaps that have more than these. @return whether there are any. Collective.
 template <int dim>
-bool Adaptation<dim>::add_doubtful(RefinedCells &cells)
+bool Adaptation<dim>::add_doubtful(Refinement &to)
 {
   unresolved.clear();
   const auto &solver   = *solved->problem->solver;
@@ -37,11 +91,12 @@ bool Adaptation<dim>::add_doubtful(RefinedCells &cells)
         accuracy::underresolved_contact(solver, state,
                                         reads_pressure() ? scene.accuracy.contact_faces : 0.);
       doubtful = doubtful || !faces.empty();
-      add(mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), cells);
+      add(solver.mesh(), refined,
+          mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), to);
       auto       found  = accuracy::unresolved_gaps(solver, state, rough_part());
-      const auto before = cells.size();
-      add(found.cells, cells);
-      doubtful = doubtful || cells.size() > before;
+      const auto before = to;
+      add(solver.mesh(), refined, found.cells, to);
+      doubtful = doubtful || to != before;
       std::move(found.lines.begin(), found.lines.end(), std::back_inserter(unresolved));
     }
   return doubtful;
@@ -49,7 +104,7 @@ bool Adaptation<dim>::add_doubtful(RefinedCells &cells)
 
 /// Cells of the demands that are not met. Collective.
 template <int dim>
-void Adaptation<dim>::add_marked(RefinedCells &cells) const
+void Adaptation<dim>::add_marked(Refinement &to) const
 {
   const auto &mesh = *solved->problem->mesh;
   const auto  ids  = mesh::all_cells(mesh);
@@ -67,7 +122,7 @@ void Adaptation<dim>::add_marked(RefinedCells &cells) const
         for (unsigned int cell = 0; cell < ids.size(); ++cell)
           if (flags[cell])
             marked.push_back(ids[cell]);
-        add(marked, cells);
+        add(mesh, refined, marked, to);
       }
 }
 
@@ -75,13 +130,13 @@ void Adaptation<dim>::add_marked(RefinedCells &cells) const
 /// estimates. Otherwise a contact that stays narrow, as on a slender body in bending, would stop
 /// the refinement. Collective.
 template <int dim>
-void Adaptation<dim>::add_marked_beside(RefinedCells &cells)
+void Adaptation<dim>::add_marked_beside(Refinement &to)
 {
   const auto measured = solved->measured;
   try
     {
       estimate(*solved);
-      add_marked(cells);
+      add_marked(to);
     }
   catch (const SolveError &)
     {
@@ -91,12 +146,15 @@ void Adaptation<dim>::add_marked_beside(RefinedCells &cells)
   solved->measured = measured;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                    \
-  template void Adaptation<dim>::add(const std::vector<dealii::CellId> &, RefinedCells &) const; \
-  template bool Adaptation<dim>::reads_pressure() const;                                         \
-  template bool Adaptation<dim>::add_doubtful(RefinedCells &);                                   \
-  template void Adaptation<dim>::add_marked(RefinedCells &) const;                               \
-  template void Adaptation<dim>::add_marked_beside(RefinedCells &);
+#define SNUG_INSTANTIATE(dim)                                                                 \
+  template void Adaptation<dim>::add(const mesh::BodyMesh<dim> &, const Refinement &,         \
+                                     const std::vector<dealii::CellId> &, Refinement &, bool) \
+    const;                                                                                    \
+  template bool       Adaptation<dim>::reads_pressure() const;                                \
+  template bool       Adaptation<dim>::add_doubtful(Refinement &);                            \
+  template void       Adaptation<dim>::add_marked(Refinement &) const;                        \
+  template void       Adaptation<dim>::add_marked_beside(Refinement &);                       \
+  template Refinement Adaptation<dim>::refined_everywhere() const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -63,8 +63,6 @@ public:
   std::string run();
 
 private:
-  using Cells = typename Adaptation<dim>::RefinedCells;
-
   /// How a design is continued from on the mesh made for it.
   struct Phase
   {
@@ -82,7 +80,7 @@ private:
   std::unique_ptr<SearchRecord<dim>> record;
   OptimizationResult                 result;
   accuracy::Measured                 initial;        ///< objective of the first design
-  Cells                              cells;          ///< of the last mesh
+  Refinement                         refinement;     ///< of the last mesh
   unsigned int                       n_failures = 0; ///< number of meshes that miss the targets
 
   void  analyse_first_design();
@@ -140,21 +138,21 @@ AdaptiveOptimization<dim>::adapt(const unsigned int n_searches)
   const auto factor   = is_over || is_tuned ? 1. : phases[n_searches];
   context.out() << "adapting the mesh to the design of iteration " << result.iterations
                 << ", factor of the targets " << factor << ":" << std::endl;
-  adaptation.start(result.x, is_tuned ? cells : Cells());
+  adaptation.start(result.x, is_tuned ? refinement : Refinement());
   auto failure_reason = adaptation.reach(factor);
-  bool agrees         = is_tuned && (adaptation.cells() == cells || agrees_with_search());
+  bool agrees         = is_tuned && (adaptation.refinement() == refinement || agrees_with_search());
   if (failure_reason.empty() && (is_over || agrees))
     failure_reason = adaptation.verify();
   add_meshes(factor == 1.);
-  if (!adaptation.finer_cells().empty() && !is_over)
+  if (!adaptation.finer_refinement().empty() && !is_over)
     {
-      const Cells finer = adaptation.finer_cells();
+      const Refinement finer = adaptation.finer_refinement();
       adaptation.start(result.x, finer);
       failure_reason = adaptation.reach(factor);
       agrees         = false;
       add_meshes(true);
     }
-  cells = adaptation.cells();
+  refinement = adaptation.refinement();
   if (failure_reason.empty() && n_searches == most_searches && !agrees)
     failure_reason = "the meshes of successive designs still differ after " +
                      std::to_string(most_searches) + " searches; relax 'Target'";

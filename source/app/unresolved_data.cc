@@ -31,8 +31,8 @@ void Adaptation<dim>::resolve_data()
   const RunContext::Timer timer(context, "setup");
   while (true)
     {
-      const auto               mesh  = build_mesh(scene, forest_with(refined), false);
-      auto                     cells = refined;
+      const auto               mesh = build_mesh(scene, forest_with(refined), false);
+      auto                     next = refined;
       std::vector<std::string> names;
       for (const auto &body : scene.bodies)
         names.push_back(body.name);
@@ -40,10 +40,10 @@ void Adaptation<dim>::resolve_data()
         return accuracy::unresolved_data(*mesh, build_load_cases(scene, *mesh), names,
                                          missed_loads(scene));
       });
-      add(found.cells, cells);
-      if (cells != refined && fits(*mesh))
+      add(*mesh, refined, found.cells, next);
+      if (next != refined && fits(*mesh))
         {
-          refined = std::move(cells);
+          refined = std::move(next);
           continue;
         }
       for (const auto &line : found.lines)

@@ -15,16 +15,15 @@ constexpr double cheap_unknowns = 1e4;
 constexpr unsigned int most_finer = 3;
 } // namespace
 
-/// Check the targets on a mesh with all cells refined once. Its error is assumed to be 4^-p of the
-/// error of the mesh before.
+/// Check the targets on a mesh with all cells divided and all elements of CAD files halved. Its
+/// error is assumed to be 4^-p of the error of the mesh before.
 template <int dim>
 std::string Adaptation<dim>::verify()
 {
   if (const auto unbounded = unbounded_at_edge(); !unbounded.empty())
     return unbounded;
-  RefinedCells cells = refined;
-  add(mesh::all_cells(*solved->problem->mesh), cells);
-  auto mesh = matched_mesh(cells);
+  Refinement everywhere = refined_everywhere();
+  auto       mesh       = matched_mesh(everywhere);
   if (!fits(*mesh))
     return "the mesh for verification has " + std::to_string(unknowns(*mesh)) +
            " unknowns; increase 'Maximum unknowns', or set 'Verify' to false";
@@ -63,7 +62,7 @@ std::string Adaptation<dim>::verify()
   if (missed.empty())
     return "";
   summary.met = false;
-  finer       = cells;
+  finer       = std::move(everywhere);
   finer_stage = std::move(fine);
   return "verification failed on the finer mesh (" + missed + "): relax 'Target'";
 }

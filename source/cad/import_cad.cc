@@ -105,10 +105,11 @@ MeshedPart meshed(const geometry::BodyMeshParameters &parameters,
   const Part part       = read_part(parameters.file, parameters.solid, dim);
   const auto boundaries = boundaries_of(describe_faces(part), parameters.cad_faces);
   check_sizes(parameters, boundaries, part.size());
-  const SizeField sizes(part,
-                        size_sources(part, boundaries, parameters.face_sizes,
-                                     parameters.element_size),
-                        parameters.element_size, parameters.size_growth);
+  ElementSizes sizes{size_sources(part, boundaries, parameters.face_sizes, parameters.element_size),
+                     parameters.element_size, parameters.size_growth};
+  for (const auto &places : parameters.halved)
+    sizes.halve(places);
+  const SizeField field(part, std::move(sizes));
   std::error_code unused; // writing fails if there is no directory
   std::filesystem::create_directories(std::filesystem::path(stem).parent_path(), unused);
   MeshedPart result;
@@ -116,7 +117,7 @@ MeshedPart meshed(const geometry::BodyMeshParameters &parameters,
   result.names = part.names;
   try
     {
-      run_gmsh(stem, result.brep, sizes.text(), dim);
+      run_gmsh(stem, result.brep, field.text(), dim);
       result.mesh     = contents(stem + ".msh");
       result.of_group = faces_of_groups(part, mesh_file::read_mesh_file(result.mesh));
     }

@@ -37,11 +37,32 @@ double elements_per_volume(const unsigned int dim)
 }
 } // namespace
 
-SizeField::SizeField(const Part             &part,
-                     std::vector<SizeSource> the_sources,
-                     const double            largest,
-                     const double            growth)
-  : sources(std::move(the_sources)), dim(part.dim), largest(largest), growth(growth)
+double ElementSizes::at(const Point &x) const
+{
+  double size = largest;
+  for (const auto &source : sources)
+    size = std::min(size, source.size + growth * source.at.distance(x));
+  return size;
+}
+
+void ElementSizes::halve(const std::vector<Point> &places)
+{
+  if (places.empty())
+    {
+      largest *= 0.5;
+      growth *= 0.5;
+      for (auto &source : sources)
+        source.size *= 0.5;
+      return;
+    }
+  std::vector<SizeSource> halved;
+  for (const auto &place : places)
+    halved.push_back({place, 0.5 * at(place)});
+  sources.insert(sources.end(), halved.begin(), halved.end());
+}
+
+SizeField::SizeField(const Part &part, ElementSizes the_sizes)
+  : sizes(std::move(the_sizes)), dim(part.dim)
 {
   Bnd_Box box;
   BRepBndLib::Add(part.shape, box);
@@ -59,7 +80,7 @@ SizeField::SizeField(const Part             &part,
     BRepGProp::VolumeProperties(part.shape, properties);
   part_of_box = std::abs(properties.Mass()) / box_volume;
   std::vector<unsigned int> all;
-  for (unsigned int k = 0; k < sources.size(); ++k)
+  for (unsigned int k = 0; k < sizes.sources.size(); ++k)
     all.push_back(k);
   view = "View \"element size\" {\n";
   add_box(lower, upper, all);
@@ -71,15 +92,18 @@ void SizeField::add_box(const Point                     &lower,
                         const std::vector<unsigned int> &near)
 {
   // Only these sources determine the size somewhere in the box.
-  double at_most = largest;
+  const auto size_at = [&](const unsigned int k, const bool closest) {
+    const auto &source = sizes.sources[k];
+    return source.size + sizes.growth * distance(source.at, lower, upper, closest);
+  };
+  double at_most = sizes.largest;
   for (const unsigned int k : near)
-    at_most =
-      std::min(at_most, sources[k].size + growth * distance(sources[k].at, lower, upper, false));
-  double                    least = largest;
+    at_most = std::min(at_most, size_at(k, false));
+  double                    least = sizes.largest;
   std::vector<unsigned int> own;
   for (const unsigned int k : near)
     {
-      const double size = sources[k].size + growth * distance(sources[k].at, lower, upper, true);
+      const double size = size_at(k, true);
       if (size < at_most)
         own.push_back(k);
       least = std::min(least, size);
@@ -118,17 +142,18 @@ void SizeField::add_leaf(const Point                     &lower,
                                                              {{1, 0, 1}},
                                                              {{1, 1, 1}},
                                                              {{0, 1, 1}}}};
-  std::ostringstream                               at, values;
-  double                                           mean = 0., volume = 1.;
+  ElementSizes                                     own{{}, sizes.largest, sizes.growth};
+  for (const unsigned int k : near)
+    own.sources.push_back(sizes.sources[k]);
+  std::ostringstream at, values;
+  double             mean = 0., volume = 1.;
   at.precision(10);
   for (const auto &corner : order)
     {
       Point x;
       for (unsigned int d = 0; d < 3; ++d)
         x[d] = corner[d] == 0 ? lower[d] : upper[d];
-      double size = largest;
-      for (const unsigned int k : near)
-        size = std::min(size, sources[k].size + growth * sources[k].at.distance(x));
+      const double size = own.at(x);
       mean += size / 8.;
       const char *comma = &corner == &order[0] ? "" : ",";
       at << comma << x[0] << ',' << x[1] << ',' << x[2];
@@ -138,7 +163,7 @@ void SizeField::add_leaf(const Point                     &lower,
     volume *= (upper[d] - lower[d]) / mean;
   n_elements += part_of_box * volume * elements_per_volume(dim);
   if (n_elements > 1e6)
-    throw bad_entry("Element size", to_text(largest),
+    throw bad_entry("Element size", to_text(sizes.largest),
                     "gives more than a million elements with 'Face sizes'; increase the sizes");
   view += "SH(" + at.str() + "){" + values.str() + "};\n";
 }

@@ -2,13 +2,34 @@
 
 #include <deal.II/base/geometry_info.h>
 
+#include <algorithm>
+
 namespace snug::geometry {
-template <int dim>
-CoarseCells<dim>::CoarseCells(const std::vector<unsigned int> &first_cell)
+namespace {
+dealii::CellId with_coarse_cell(const dealii::CellId &cell, const unsigned int coarse)
 {
-  for (unsigned int body = 0; body + 1 < first_cell.size(); ++body)
-    for (unsigned int cell = first_cell[body]; cell < first_cell[body + 1]; ++cell)
-      index_of_id.push_back(cell - first_cell[body]);
+  const auto path = cell.get_child_indices();
+  return {coarse, static_cast<unsigned int>(path.size()), path.data()};
+}
+} // namespace
+
+template <int dim>
+unsigned int CoarseCells<dim>::body(const dealii::CellId &cell) const
+{
+  return std::upper_bound(first_cell.begin(), first_cell.end(), cell.get_coarse_cell_id()) -
+         first_cell.begin() - 1;
+}
+
+template <int dim>
+dealii::CellId CoarseCells<dim>::in_body(const dealii::CellId &cell) const
+{
+  return with_coarse_cell(cell, coarse_cell(cell));
+}
+
+template <int dim>
+dealii::CellId CoarseCells<dim>::in_all(const unsigned int body, const dealii::CellId &cell) const
+{
+  return with_coarse_cell(cell, first_cell[body] + cell.get_coarse_cell_id());
 }
 
 template <int dim>

@@ -27,3 +27,19 @@ Save "parabola.step";
 Extrude {0, 0, 0.5} { Surface{1}; }
 Recursive Delete { Surface{1}; }
 Save "parabola-bar.step";
+
+// A quarter of a ring between the radii 1 and 2.
+NewModel;
+SetFactory("OpenCASCADE");
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {2, 0, 0};
+Point(4) = {0, 2, 0};
+Point(5) = {0, 1, 0};
+Line(1) = {2, 3};
+Circle(2) = {3, 1, 4};
+Line(3) = {4, 5};
+Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Save "ring.step";

@@ -3,10 +3,10 @@
 
 #include <snug/accuracy/demand.h>
 #include <snug/app/mesh_error.h>
+#include <snug/app/refinement.h>
 #include <snug/io/summary.h>
 
 #include <optional>
-#include <set>
 
 namespace snug::app {
 /// A mesh that was made for targets, and the analysis of a design on this mesh.
@@ -22,7 +22,8 @@ struct AdaptedProblem
 
 /**
  * Adaptive refinement for a design. Each mesh is refined from the mesh before where its errors are
- * large, until the targets are met. The analysis on a mesh starts from the contact forces on the
+ * large, until the targets are met: bodies of CAD files are meshed anew, and the cells of other
+ * bodies are divided. The analysis on a mesh starts from the contact forces on the
  * mesh before, to a solver tolerance that follows the discretization error. Contact faces that lie
  * opposite to each other are kept at one size. The states on which the marked cells depend change
  * within the solver tolerance when the subdomains change. The subdomains therefore do not depend on
@@ -32,17 +33,16 @@ template <int dim>
 class Adaptation
 {
 public:
-  using States       = typename ShapeProblem<dim>::States;
-  using Design       = typename ShapeProblem<dim>::Design;
-  using RefinedCells = std::set<dealii::CellId>;
+  using States = typename ShapeProblem<dim>::States;
+  using Design = typename ShapeProblem<dim>::Design;
 
-  /// @p context and @p scene must outlive this object and the problems that it makes.
+  /// @p context and this object must outlive the problems that it makes.
   Adaptation(RunContext &context, const scene::Scene &scene) : context(context), scene(scene) {}
 
   /// Make the first mesh for @p design, or for the initial design if @p design is empty, and solve
-  /// there. The first mesh is the mesh of the scene with @p cells refined. Earlier meshes and the
+  /// there. The first mesh is the mesh of the scene with @p refinement. Earlier meshes and the
   /// summary are discarded. Collective. @throws InputError, SolveError.
-  void start(const Design &design = {}, const RefinedCells &cells = {});
+  void start(const Design &design = {}, const Refinement &refinement = {});
 
   /// Refine until errors are at most @p factor times the targets. Return why they are not; empty:
   /// they are. Collective. @throws SolveError.
@@ -56,9 +56,8 @@ public:
   /// Compare with the mesh on which all cells are refined. Return why the targets are not met
   /// there; empty: they are. Collective. @throws SolveError.
   std::string verify();
-  /// Return the refined cells of the mesh on which verify() missed the targets; empty if it did
-  /// not.
-  const RefinedCells &finer_cells() const { return finer; }
+  /// Return the refinement of the mesh on which verify() missed the targets; empty if it did not.
+  const Refinement &finer_refinement() const { return finer; }
 
   /// Return the problem of the mesh on which the targets are met, or else of the last mesh.
   const ShapeProblem<dim> &problem() const { return *solved->problem; }
@@ -66,8 +65,8 @@ public:
   /// Return the errors of states(), in the responses of the targets. Empty if a contact has
   /// too few faces for an estimate.
   const std::vector<MeshError> &errors() const { return solved->errors; }
-  /// Return the cells that are refined beyond the scene's own refinement.
-  const RefinedCells &cells() const { return refined; }
+  /// Return the refinement of the last mesh.
+  const Refinement &refinement() const { return refined; }
 
   /// Return the value of the objective and its error, which is NaN if the objective is no target.
   /// Collective.
@@ -84,26 +83,26 @@ private:
   using Stage = AdaptedProblem<dim>;
 
   RunContext                        &context;
-  const scene::Scene                &scene;
-  Design                             at; ///< the design; empty: the initial design
+  scene::Scene                       scene; ///< with the meshes of CAD files that were made last
+  Design                             at;    ///< the design; empty: the initial design
   std::vector<accuracy::Demand>      demands;
   std::unique_ptr<mesh::Forest<dim>> forest;
-  RefinedCells                       in_forest;   ///< cells refined in the forest
-  RefinedCells                       refined;     ///< of the last mesh
-  std::optional<RefinedCells>        first_cells; ///< refined in the first mesh of the scene
-  RefinedCells                       finer;       ///< see finer_cells()
-  double                             began;       ///< when the last mesh was begun [s]
+  std::set<dealii::CellId>           in_forest; ///< cells refined in the forest
+  Refinement                         refined;   ///< of the last mesh
+  std::optional<Refinement>          first;     ///< of the first mesh of the scene
+  Refinement                         finer;     ///< see finer_refinement()
+  double                             began;     ///< when the last mesh was begun [s]
   unsigned int n_doubtful = 0; ///< number of last meshes on which contact or gaps were not resolved
   std::unique_ptr<Stage> solved;
-  std::unique_ptr<Stage> finer_stage; ///< mesh of finer_cells()
+  std::unique_ptr<Stage> finer_stage; ///< mesh of finer_refinement()
   bool finer_is_enough = true; ///< errors on the finer mesh of verify() are below the targets
   std::vector<std::string> unresolved; ///< gaps that are not resolved, as log lines
 
   static unsigned long     unknowns(const mesh::BodyMesh<dim> &mesh);
   static double            tolerance(const Stage &stage);
-  const mesh::Forest<dim> &forest_with(const RefinedCells &cells);
-  Mesh                     matched_mesh(RefinedCells &cells);
-  Mesh                     first_mesh(const RefinedCells &cells);
+  const mesh::Forest<dim> &forest_with(const Refinement &refinement);
+  Mesh                     matched_mesh(Refinement &refinement);
+  Mesh                     first_mesh(const Refinement &refinement);
   std::unique_ptr<Stage>   stage(Mesh mesh, double tolerance) const;
   void                     set_demands();
   void                     solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const;
@@ -116,22 +115,27 @@ private:
   bool                     reads_pressure() const;
   bool                     is_met(unsigned int demand) const;
   double                   least() const;
-  double                   first_tolerance(const RefinedCells &cells) const;
+  double                   first_tolerance(const Refinement &refinement) const;
   double                   next_tolerance() const;
   bool                     is_rough() const;
   bool                     fits(const mesh::BodyMesh<dim> &mesh) const;
-  void        add(const std::vector<dealii::CellId> &marked, RefinedCells &cells) const;
-  bool        add_doubtful(RefinedCells &cells);
-  double      rough_part() const;
-  void        resolve_data();
-  bool        is_to_be_verified() const;
-  void        add_marked(RefinedCells &cells) const;
-  void        add_marked_beside(RefinedCells &cells);
-  std::string failure();
-  std::string noted();
-  std::string go_on(RefinedCells &cells);
-  std::string missed(const std::string &advice) const;
-  std::string unbounded_at_edge();
+  void                     add(const mesh::BodyMesh<dim>         &mesh,
+                               const Refinement                  &of_mesh,
+                               const std::vector<dealii::CellId> &marked,
+                               Refinement                        &to,
+                               bool                               mesh_files_anew = true) const;
+  bool                     add_doubtful(Refinement &to);
+  double                   rough_part() const;
+  void                     resolve_data();
+  bool                     is_to_be_verified() const;
+  void                     add_marked(Refinement &to) const;
+  void                     add_marked_beside(Refinement &to);
+  Refinement               refined_everywhere() const;
+  std::string              failure();
+  std::string              noted();
+  std::string              go_on(Refinement &next);
+  std::string              missed(const std::string &advice) const;
+  std::string              unbounded_at_edge();
 };
 } // namespace snug::app
 

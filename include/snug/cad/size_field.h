@@ -26,17 +26,30 @@ std::vector<SizeSource> size_sources(const Part                          &part,
                                      const std::map<std::string, double> &sizes,
                                      double                               largest);
 
+/// The element size h(x) = min(H, min_k (h_k + growth |x - x_k|)).
+struct ElementSizes
+{
+  std::vector<SizeSource> sources;
+  double                  largest; ///< H [length]
+  double                  growth;
+
+  double at(const dealii::Point<3> &x) const;
+
+  /// Halve the size at @p places, from which it grows to the size before, or everywhere if there
+  /// are no places.
+  void halve(const std::vector<dealii::Point<3>> &places);
+};
+
 /**
- * This class writes the element size h(x) = min(H, min_k (h_k + growth |x - x_k|)) as a
- * background field of Gmsh: the values at the corners of boxes, which are divided until their edges
- * are at most twice as long as the elements.
+ * This class writes element sizes as a background field of Gmsh: the values at the corners of
+ * boxes, which are divided until their edges are at most twice as long as the elements.
  */
 class SizeField
 {
 public:
   /// The field covers the box of @p part. @throws InputError if the field gives more than a
   /// million elements.
-  SizeField(const Part &part, std::vector<SizeSource> sources, double largest, double growth);
+  SizeField(const Part &part, ElementSizes sizes);
 
   /// Return the field as a view in Gmsh's format .pos.
   const std::string &text() const { return view; }
@@ -44,12 +57,11 @@ public:
 private:
   using Point = dealii::Point<3>;
 
-  const std::vector<SizeSource> sources;
-  const unsigned int            dim;
-  const double                  largest, growth;
-  double                        part_of_box; ///< fraction of the box that the part fills
-  double                        n_elements = 0.;
-  std::string                   view;
+  const ElementSizes sizes;
+  const unsigned int dim;
+  double             part_of_box; ///< fraction of the box that the part fills
+  double             n_elements = 0.;
+  std::string        view;
 
   void add_box(const Point &lower, const Point &upper, const std::vector<unsigned int> &near);
   void add_leaf(const Point &lower, const Point &upper, const std::vector<unsigned int> &near);

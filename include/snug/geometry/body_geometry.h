@@ -101,6 +101,10 @@ struct BodyMeshParameters
   double                             element_size = 0.; ///< of the mesh of a CAD file [length]
   std::map<std::string, double>      face_sizes;        ///< boundary -> element size [length]
   double                             size_growth = 0.3; ///< of element sizes per distance
+  /// Refinements of the mesh of a CAD file, one after the other: places in the coordinates of the
+  /// file at which the element size is halved. Without places, it is halved everywhere. Not an
+  /// entry.
+  std::vector<std::vector<dealii::Point<3>>> halved;
   /// @}
 
   /// @name Regions, to which materials may refer, and parts of boundaries

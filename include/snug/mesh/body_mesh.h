@@ -151,6 +151,8 @@ public:
   /// meshes, the same id names the cell together with all its children.
   const dealii::CellId &cell_id(unsigned int cell) const { return cell_ids[cell]; }
 
+  const geometry::CoarseCells<dim> &coarse_cells() const { return places; }
+
   /// Return the reference position of the body at coordinates @p unit of a cell of cells(). Meshes
   /// interpolate this position between nodes.
   dealii::Point<dim> true_position(unsigned int cell, const dealii::Point<dim> &unit) const

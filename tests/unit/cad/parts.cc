@@ -169,6 +169,31 @@ TEST(Cad, elements_are_small_near_a_face_and_grow)
   EXPECT_NEAR(std::sqrt(large * 12. / std::sqrt(3.)), 0.35, 0.1);
 }
 
+/// Elements have half of the size at a place, and half of the size everywhere if no place is given.
+TEST(Cad, halved_elements_have_half_of_the_size)
+{
+  auto block         = part("pins.step", 0.4);
+  block.solid        = 2;
+  const auto n_cells = [&]() { return 1. * imported(block, 3)->solid->blocks.size(); };
+  // The edges of the box of the solid: x 2 to 3, y 0 to 1, z 0 to 0.5.
+  const dealii::Point<3> corner(2., 0., 0.);
+  const auto             n_near = [&]() {
+    const auto mesh = imported(block, 3);
+    double     n    = 0.;
+    for (const auto &cell : mesh->solid->blocks)
+      n += mesh->solid->vertices[cell.front()].distance(corner) < 0.2;
+    return n;
+  };
+  const double all = n_cells(), near = n_near();
+  block.halved = {{corner}, {corner}};
+  EXPECT_GT(n_near(), 10. * near);
+  EXPECT_LT(n_cells(), 20. * all); // elsewhere elements grow by 0.3 of the distance
+  block.halved       = {{}};
+  const double finer = n_cells();
+  block.halved       = {{}, {}};
+  EXPECT_NEAR(n_cells() / finer, 8., 2.5); // Gmsh attains sizes to about 10 %
+}
+
 /// Each message names the entry and what is allowed.
 TEST(Cad, wrong_parts_are_refused_on_all_ranks)
 {
