@@ -16,9 +16,7 @@ void AccuracyParameters::declare(Entries &entries)
                    {"tip: 0.02",
                     "absolute error in the units of the response, at least 1e-8 % of its "
                     "value"}}),
-    "The maximum estimated errors of responses in all load cases, to which the mesh is refined: "
-    "bodies of CAD files are meshed anew with smaller elements, and cells of other bodies are "
-    "divided. "
+    "The maximum estimated errors of responses in all load cases, to which the mesh is refined. "
     "Names are those of 'Responses' or quantities. An optimization needs a target for its "
     "objective "
     "and uses meshes for 8, 3 and 1 times the targets. An empty list means the mesh as given.");
