@@ -1,12 +1,16 @@
 #include <snug/base/errors.h>
 #include <snug/base/values.h>
 #include <snug/cad/import_cad.h>
+#include <snug/cad/part.h>
 #include <snug/mesh/body_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <IGESControl_Writer.hxx>
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -149,6 +153,30 @@ TEST(Cad, meshes_are_reproducible)
   EXPECT_EQ(mesh->faces, imported(brep, 3)->faces);
   EXPECT_EQ(dealii::Utilities::MPI::sum(mesh->text_hash % 1000, MPI_COMM_WORLD),
             mesh->text_hash % 1000 * dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+}
+
+/// A file of IGES has the faces of the shape, without a solid.
+TEST(Cad, faces_of_iges_are_sewn_to_a_solid)
+{
+  auto brep  = part("pins.brep", 1.);
+  brep.solid = 2;
+  auto iges  = part("", 1.);
+  iges.file =
+    "cad-test-" + std::to_string(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) + ".igs";
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    {
+      IGESControl_Writer writer;
+      writer.AddShape(cad::read_part(brep.file, brep.solid, 3).shape);
+      ASSERT_TRUE(writer.Write(iges.file.c_str()));
+    }
+  MPI_Barrier(MPI_COMM_WORLD);
+  auto sorted = [](std::vector<std::string> faces) {
+    for (auto &face : faces)
+      face = face.substr(face.find("area"), face.find("beside") - face.find("area"));
+    std::sort(faces.begin(), faces.end());
+    return faces;
+  };
+  EXPECT_EQ(sorted(imported(iges, 3)->faces), sorted(imported(brep, 3)->faces));
 }
 
 /// Elements on a face have its size, and grow away from it.
