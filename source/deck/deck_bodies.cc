@@ -65,10 +65,8 @@ std::set<unsigned int> DeckBodies::faces_on(const Body &body, const std::string 
     return result;
   for (const auto &face : optional->second.faces)
     add(sorted(face.corners));
-  const auto &nodes = optional->second.nodes;
   for (const auto &[corners, face] : body.outer)
-    if (std::all_of(corners.begin(), corners.end(),
-                    [&](const unsigned int n) { return nodes.count(n) > 0; }))
+    if (optional->second.has_corners(corners))
       result.insert(face);
   return result;
 }

@@ -8,6 +8,7 @@ namespace {
 using mesh_file::error_at_line;
 using mesh_file::Keyword;
 using mesh_file::keyword_error;
+using mesh_file::numbers_from;
 using mesh_file::to_number;
 using mesh_file::to_whole;
 using mesh_file::upper_case;
@@ -141,8 +142,7 @@ private:
     unsigned int        n = 0;
     text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (n++ == 0)
-        for (const auto &word : words)
-          numbers.push_back(word.empty() ? 0. : to_number(word, line));
+        numbers = numbers_from(words, 0, line);
       else
         left_out.add(title_of(keyword) + ": lines after the first", line);
     });
@@ -248,7 +248,7 @@ private:
       const auto set = key.empty() ? listed->second : sets.boundary_of_nodes(key);
       if (has_faces(keyword, set, line))
         for (const unsigned int c : components)
-          model.holds.push_back({set, c, value, line});
+          model.prescribed.push_back({set, c, value, line});
     });
   }
 
@@ -261,15 +261,6 @@ private:
     if (found == sets.spelling.end() || sets.of_nodes.count(found->first) == 0)
       throw error_at_line(line, "there is no surface '" + word + "'");
     return sets.boundary_of_nodes(found->first);
-  }
-
-  static std::vector<double>
-  numbers_from(const Words &words, const std::size_t first, const unsigned long line)
-  {
-    std::vector<double> numbers;
-    for (std::size_t i = first; i < words.size(); ++i)
-      numbers.push_back(words[i].empty() ? 0. : to_number(words[i], line));
-    return numbers;
   }
 
   /// Return a vector of dim components from {magnitude, direction}.

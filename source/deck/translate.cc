@@ -173,7 +173,7 @@ private:
         names[set] = bodies.boundary_name(b, set);
     write_entry({"Boundary names", to_text(names)});
     write_entry(materials_of(body));
-    write_holds(b);
+    write_prescribed(b);
     write_loads(b, {"Pressure"}, model.pressures);
     write_loads(b, {"Traction"}, model.tractions);
     write("end");
@@ -197,26 +197,27 @@ private:
   }
 
   /// Write supports and prescribed displacements. Of several values the last one counts.
-  void write_holds(const unsigned int b)
+  void write_prescribed(const unsigned int b)
   {
-    std::map<std::string, std::map<unsigned int, const DeckModel::Hold *>> holds;
-    for (const auto &hold : model.holds)
-      for (const auto &boundary : bodies.boundaries(b, hold.set))
-        holds[boundary][hold.component] = &hold;
+    std::map<std::string, std::map<unsigned int, const DeckModel::PrescribedComponent *>>
+      prescribed;
+    for (const auto &component : model.prescribed)
+      for (const auto &boundary : bodies.boundaries(b, component.set))
+        prescribed[boundary][component.component] = &component;
     Entry supports{"Supports"}, displacements{"Displacement"};
-    for (const auto &[boundary, of_components] : holds)
+    for (const auto &[boundary, of_components] : prescribed)
       {
         std::string components;
-        for (const auto &[c, hold] : of_components)
-          if (hold->value == 0.)
+        for (const auto &[c, of] : of_components)
+          if (of->value == 0.)
             {
               components += "xyz"[c];
-              supports.add_line(hold->line);
+              supports.add_line(of->line);
             }
           else
             {
-              displacements.add(boundary + ": " + "xyz"[c] + " = " + to_text(hold->value));
-              displacements.add_line(hold->line);
+              displacements.add(boundary + ": " + "xyz"[c] + " = " + to_text(of->value));
+              displacements.add_line(of->line);
             }
         if (!components.empty())
           supports.add(boundary + ": " + components);

@@ -19,8 +19,8 @@ struct DeckModel
     double                density = 0.;
   };
 
-  /// A displacement component of a set.
-  struct Hold
+  /// A displacement component of a set [length].
+  struct PrescribedComponent
   {
     std::string   set;
     unsigned int  component;
@@ -53,7 +53,7 @@ struct DeckModel
   std::vector<Material>               materials;
   std::map<unsigned int, std::string> material_of; ///< element -> material
   std::map<unsigned int, std::string> region_of;   ///< element -> set of its section
-  std::vector<Hold>                   holds;
+  std::vector<PrescribedComponent>    prescribed;
   std::vector<FaceLoad>               pressures, tractions;
   std::vector<Gravity>                gravities;
   std::vector<Contact>                contacts;
