@@ -202,7 +202,8 @@ private:
                    line);
     else if (!bodies.use(set))
       left_out.add(title_of(keyword) +
-                     " of nodes or sets without a face whose nodes are all in the set",
+                     " of nodes or sets without a face whose nodes are all in the set" +
+                     (keyword.name == "BOUNDARY" ? "; supports hold whole faces" : ""),
                    line);
     else
       {
@@ -334,10 +335,26 @@ private:
       left_out.add(title_of(keyword) + " " + law + ": contact is hard", keyword.line);
   }
 
+  /// Read a line "node or set, component, force".
   void read_point_load(const Keyword &keyword)
   {
-    text.for_each_line(keyword, [&](const Words & /*words*/, const unsigned long line) {
-      left_out.add(title_of(keyword), line);
+    text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (words.size() < 3)
+        throw error_at_line(line, "a node or set, a component and a force are expected");
+      const auto   nodes     = sets.nodes(words[0], "", keyword.title, line);
+      const auto   component = to_whole(words[1], line);
+      const double force     = to_number(words[2], line);
+      if (component < 1 || component > bodies.dimension())
+        return left_out.add(title_of(keyword) + " of component " + words[1], line);
+      if (component == 1 && model.model == "axisymmetric")
+        return left_out.add(title_of(keyword) + " along the radius of an axisymmetric model", line);
+      for (const unsigned int node : nodes)
+        {
+          auto &sum = model.point_forces[node];
+          sum.components.resize(bodies.dimension(), 0.);
+          sum.components[component - 1] += force;
+          sum.lines.push_back(line);
+        }
     });
   }
 

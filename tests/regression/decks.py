@@ -44,6 +44,8 @@ end
 # Measured difference of the peak pressures of the designed punch
 PEAK = 0.03
 EXACT = ["Solver/Relative tolerance=1e-12", "Accuracy/Estimate=none"]
+# Forces of the deck of check_forces(), which has more of them at nodes that are held
+FORCES = "Body upper/Point force=top: 0 0 -7 at 2 2 2, top: 0 0 2 at 2 0 2, top: 0 0 -1 at 0 0 2"
 # What the decks contain beyond the parameter file, with the lines
 LEFT_OUT = {
     "cae-blocks.inp": ["*FRICTION: the option SLIPTOLERANCE (line 90)",
@@ -51,7 +53,7 @@ LEFT_OUT = {
                        "*OUTPUT (lines 126 and 127)"],
     "ccx-blocks.inp": ["*SURFACE BEHAVIOR LINEAR: contact is hard (line 66)",
                        "*STEP: the option NLGEOM (line 83)", "*NODE FILE (line 91)"],
-    "prepomax-blocks.inp": ["without a face whose nodes are all in the set (line 136)",
+    "prepomax-blocks.inp": ["are all in the set; supports hold whole faces (line 136)",
                             "*NODE FILE (line 148)"]}
 # A punch whose bottom is designed, on a flat block, at both of which nodes match. The rows have the
 # normal of the flat master side, so that the true surface between the nodes does not matter.
@@ -111,6 +113,11 @@ WRONG = [
     ("NFIX,1,3", "NFIX,one,3", ["'one'"]),
     ("11,P2,10.", "11,P9,10.", ["has no face 'P9'"]),
     ("11,P2,10.", "11,P2,ten", ["'ten' is not a number"]),
+    ("*NODE FILE\nU", "*CLOAD\nNFIX,3", ["line 92", "a node or set, a component and a force"]),
+    ("*NODE FILE\nU", "*CLOAD\nNXXX,3,1", ["line 92", "'NXXX'", "neither a set"]),
+    ("*NODE FILE\nU", "*CLOAD\n999,3,1", ["line 92", "the node 999"]),
+    ("*NODE FILE\nU", "*CLOAD\n118,z,1", ["line 92", "'z'"]),
+    ("*NODE FILE\nU", "*CLOAD\n118,3,one", ["line 92", "'one' is not a number"]),
     ("** two blocks", "two blocks", ["needs a deck"]),
     ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=B31", ["element type 'B31'"]),
     ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["more.inp"]),
@@ -186,6 +193,20 @@ def check_includes(runner, meshes):
     done = runner.run(scene)
     runner.require("files that include each other", done.returncode == 2 and
                    "more than 10 files" in done.stdout, done.stdout)
+
+
+def check_forces(runner, meshes):
+    """Forces at nodes, of which one has two: the entry of a parameter file, and of a written deck."""
+    scene, deck = runner.folder / "blocks.prm", runner.folder / "forces.inp"
+    deck.write_text((meshes / "ccx-blocks.inp").read_text().replace(
+        "*NODE FILE\nU", "*CLOAD\n118, 3, -3\n112, 3, 2\n110, 3, -1\n118, 3, -4\nNFIX, 1, 3"))
+    expected, _ = runner.summary("forces", scene, *EXACT, FORCES)
+    found, _ = runner.summary("forces.inp.out", deck, *EXACT, ranks=2)
+    runner.compare("forces at nodes", found, expected, 1e-12)
+    for title, *entries in (("quadratic", "Element degree=2"),):
+        expected, output = runner.summary(title, scene, *EXACT, *entries, "Output/Meshes=inp")
+        found, _ = runner.summary(title + ".read", output / "bodies.inp", *EXACT)
+        runner.compare(f"{title}, read back", found, expected, 1e-9)
 
 
 def check_wrong_decks(runner, meshes):
@@ -268,6 +289,7 @@ def main():
         runner = Runner(options.snug.resolve(), options.mpiexec, pathlib.Path(folder))
         check_decks(runner, options.meshes)
         check_includes(runner, options.meshes)
+        check_forces(runner, options.meshes)
         check_wrong_decks(runner, options.meshes)
         check_calculix(runner, *check_read_back(runner), options.meshes.parent / "scenes")
     print("\n".join(runner.wrong) or "all right")

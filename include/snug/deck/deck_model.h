@@ -36,6 +36,13 @@ struct DeckModel
     unsigned long       line;
   };
 
+  /// The sum of the forces at a node [force].
+  struct PointForce
+  {
+    std::vector<double>        components;
+    std::vector<unsigned long> lines;
+  };
+
   /// Gravity of the elements of a set.
   struct Gravity
   {
@@ -55,6 +62,7 @@ struct DeckModel
   std::map<unsigned int, std::string> region_of;   ///< element -> set of its section
   std::vector<PrescribedComponent>    prescribed;
   std::vector<FaceLoad>               pressures, tractions;
+  std::map<unsigned int, PointForce>  point_forces; ///< by node
   std::vector<Gravity>                gravities;
   std::vector<Contact>                contacts;
   std::map<std::string, double>       friction; ///< interaction in upper case -> coefficient
