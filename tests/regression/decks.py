@@ -203,10 +203,16 @@ def check_forces(runner, meshes):
     expected, _ = runner.summary("forces", scene, *EXACT, FORCES)
     found, _ = runner.summary("forces.inp.out", deck, *EXACT, ranks=2)
     runner.compare("forces at nodes", found, expected, 1e-12)
-    for title, *entries in (("quadratic", "Element degree=2"),):
+    for title, *entries in (("quadratic", "Element degree=2"),
+                            ("written forces", "Body upper/Point force=top: 0 0 -7 at 1.3 0.6 2")):
         expected, output = runner.summary(title, scene, *EXACT, *entries, "Output/Meshes=inp")
         found, _ = runner.summary(title + ".read", output / "bodies.inp", *EXACT)
         runner.compare(f"{title}, read back", found, expected, 1e-9)
+    _, output = runner.summary("warm", scene, "Output/Meshes=inp", "Body upper/Springs=top: z = 1",
+                               "Body upper/Expansion=1e-3", "Body upper/Temperature=1")
+    text = (output / "bodies.inp").read_text()
+    for line in ("springs", "temperatures, instead of which it has the forces"):
+        runner.require(f"a deck lacks {line}", f"** not in this deck: {line}" in text)
 
 
 def check_wrong_decks(runner, meshes):
