@@ -156,7 +156,13 @@ std::optional<std::string> DeckBodies::boundary_at(const unsigned int b,
       around = corners;
   for (const auto &[corners, face] : bodies[b].outer)
     if (std::includes(corners.begin(), corners.end(), around.begin(), around.end()))
-      return face_name(b, face);
+      {
+        // Faces of a body without 'Boundary sets' have the names of their groups.
+        for (const auto &[set, faces] : faces_of_set)
+          if (bodies[b].sets.empty() && std::count(faces.begin(), faces.end(), corners) > 0)
+            return set;
+        return face_name(b, face);
+      }
   return {};
 }
 

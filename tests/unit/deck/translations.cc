@@ -116,6 +116,15 @@ TEST(Translations, ForcesOfANodeAddUpAtABoundaryOfTheNode)
                                                        {"bottom", "0.5 0 at 2 0"}}));
 }
 
+TEST(Translations, ForcesOfABodyWithoutBoundarySetsAreAtTheGroupsOfItsFaces)
+{
+  const auto text  = squares("", "*CLOAD\n12, 2, 1.\n14, 2, 1.\n");
+  const auto scene = scene_of(deck::translate(text, "deck.inp"), text);
+  EXPECT_TRUE(scene.bodies[1].mesh.boundary_sets.empty());
+  EXPECT_EQ(scene.bodies[1].loads.point_forces,
+            (Pairs{{"under", "0 1 at 1 2"}, {"free", "0 1 at 1 3"}}));
+}
+
 TEST(Translations, ForcesWithoutAPlaceAreLeftOut)
 {
   const auto text =
