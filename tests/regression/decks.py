@@ -7,6 +7,7 @@ files of a designed scene are read back to the same state, and CalculiX finds it
 contact pressures as far as its penalty and its elements allow."""
 
 import argparse
+import csv
 import json
 import pathlib
 import shutil
@@ -229,6 +230,17 @@ def check_wrong_decks(runner, meshes):
                        done.stdout[:300])
 
 
+def check_node_numbers(runner, output):
+    """The last contact table names the nodes of the written mesh at its positions."""
+    mesh = (output / "bodies.msh").read_text().split("$Nodes\n")[1].split("$EndNodes")[0]
+    nodes = {words[0]: [float(x) for x in words[1:]]
+             for words in map(str.split, mesh.splitlines()[1:])}
+    with open(sorted(output.glob("contact-*.csv"))[-1], encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    runner.require(f"node numbers of {output.name}", len(rows) == 25 and all(
+        nodes[row["node"]] == [float(row[axis]) for axis in "xyz"] for row in rows))
+
+
 def check_read_back(runner):
     scene = runner.folder / "designed.prm"
     scene.write_text(DESIGNED)
@@ -251,6 +263,8 @@ def check_read_back(runner):
         runner.require(f"bodies.{ending} on 3 ranks",
                        (other / f"bodies.{ending}").read_text() ==
                        (one / f"bodies.{ending}").read_text())
+    for folder in (output, other):
+        check_node_numbers(runner, folder)
     return designed, output
 
 
