@@ -11,9 +11,10 @@ void Results<dim>::draw(const double                  time,
   // the last design may be one that was asked for already
   if (time > 0. && time == drawn)
     return;
-  drawn                           = time;
-  const auto              &solver = *problem->solver;
-  std::vector<std::string> fields, faces; // files of the load cases in the output directory
+  drawn                                  = time;
+  const auto                     &solver = *problem->solver;
+  std::vector<std::string>        fields, faces; // files of the load cases in the output directory
+  const std::vector<unsigned int> none;
   for (unsigned int c = 0; c < states.size(); ++c)
     {
       const std::string folder =
@@ -24,11 +25,13 @@ void Results<dim>::draw(const double                  time,
                                           time, states[c], gradient ? &*gradient : nullptr,
                                           errors.empty() ? nullptr : &errors[c].energy.cells));
       const auto &contact = solver.contact(c);
-      faces.push_back(folder + pictures[c].contact.write({*problem->mesh, solver.surface(),
-                                                          contact.joined_pairs(), contact.places(),
-                                                          contact.dependent_multipliers(),
-                                                          contact.placed_surface()},
-                                                         time, states[c]));
+      faces.push_back(
+        folder +
+        pictures[c].contact.write({*problem->mesh, solver.surface(), contact.joined_pairs(),
+                                   contact.places(), contact.dependent_multipliers(),
+                                   contact.placed_surface(),
+                                   contact.places().empty() ? none : numbers_of_nodes()},
+                                  time, states[c]));
     }
   if (states.size() > 1)
     io::write_load_cases(problem->context.communicator(), problem->scene.output_directory, fields,

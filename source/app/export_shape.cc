@@ -5,6 +5,7 @@
 #include <snug/io/shape_export.h>
 #include <snug/io/spline_surface.h>
 #include <snug/io/text_file.h>
+#include <snug/io/whole_mesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -141,6 +142,15 @@ double size_of(const std::vector<dealii::Tensor<1, dim>> &positions)
 } // namespace
 
 template <int dim>
+const std::vector<unsigned int> &Results<dim>::numbers_of_nodes()
+{
+  if (!node_numbers)
+    node_numbers =
+      io::gather_mesh<dim>(*problem->mesh, problem->mesh->reference_positions()).number_of;
+  return *node_numbers;
+}
+
+template <int dim>
 void Results<dim>::export_shape(const std::vector<double> &design)
 {
   if (problem->shapes->n_variables() == 0)
@@ -149,21 +159,21 @@ void Results<dim>::export_shape(const std::vector<double> &design)
   const mesh::Surface<dim> faces(*problem->mesh, problem->shapes->faces());
   const auto               positions = problem->positions(design);
   const auto               at_faces  = faces.gather(positions);
-  const auto               whole     = io::gather_mesh<dim>(*problem->mesh, positions);
+  const auto              &number_of = numbers_of_nodes();
   const auto               points    = problem->shapes->control_points(design);
   throw_collectively(problem->context.communicator(), [&]() {
     if (problem->context.rank() != 0)
       return;
     if constexpr (dim == 3)
       io::write_surface(path("surface.stl"), faces, at_faces);
-    io::write_text_file(
-      path("profile.csv"),
-      io::profile_text(
-        faces, at_faces, problem->mesh->degree(),
-        [&](unsigned int body, unsigned int boundary) {
-          return io::boundary_name(*problem->mesh, problem->scene, body, boundary);
-        },
-        [&](unsigned int node) { return whole.number_of[faces.global_node(node)] + 1; }));
+    const auto name = [&](const unsigned int body, const unsigned int boundary) {
+      return io::boundary_name(*problem->mesh, problem->scene, body, boundary);
+    };
+    const auto number = [&](const unsigned int node) {
+      return number_of[faces.global_node(node)] + 1;
+    };
+    io::write_text_file(path("profile.csv"),
+                        io::profile_text(faces, at_faces, problem->mesh->degree(), name, number));
     io::write_control_points(path("control-points.csv"), points);
   });
   export_profile(design);
@@ -258,9 +268,10 @@ void Results<dim>::report_profile(std::vector<std::string> lines)
   warn(lines);
 }
 
-#define SNUG_INSTANTIATE(dim)                                              \
-  template void Results<dim>::export_shape(const std::vector<double> &);   \
-  template void Results<dim>::export_profile(const std::vector<double> &); \
+#define SNUG_INSTANTIATE(dim)                                                                        \
+  template const std::vector<unsigned int> &Results<dim>::numbers_of_nodes();                        \
+  template void                             Results<dim>::export_shape(const std::vector<double> &); \
+  template void Results<dim>::export_profile(const std::vector<double> &);                           \
   template void Results<dim>::report_profile(std::vector<std::string>);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -65,10 +65,8 @@ std::set<unsigned int> DeckBodies::faces_on(const Body &body, const std::string 
     return result;
   for (const auto &face : optional->second.faces)
     add(sorted(face.corners));
-  const auto &nodes = optional->second.nodes;
   for (const auto &[corners, face] : body.outer)
-    if (std::all_of(corners.begin(), corners.end(),
-                    [&](const unsigned int n) { return nodes.count(n) > 0; }))
+    if (optional->second.has_corners(corners))
       result.insert(face);
   return result;
 }
@@ -120,6 +118,17 @@ std::string DeckBodies::boundary_name(const unsigned int b, const std::string &s
   return std::find(sets.begin(), sets.end(), name) == sets.end() ? name : set;
 }
 
+/// Return the name of the boundary that an outer face of a body belongs to.
+std::string DeckBodies::face_name(const unsigned int b, const unsigned int face) const
+{
+  const Body &body = bodies[b];
+  std::string name;
+  for (unsigned int s = 0; s < body.sets.size(); ++s)
+    if (body.faces[s].count(face) > 0)
+      name += (name.empty() ? "" : " and ") + boundary_name(b, body.sets[s]);
+  return name.empty() ? "free" : name;
+}
+
 std::vector<std::string> DeckBodies::boundaries(const unsigned int b, const std::string &set) const
 {
   const Body &body  = bodies[b];
@@ -130,15 +139,47 @@ std::vector<std::string> DeckBodies::boundaries(const unsigned int b, const std:
   std::vector<std::string> result;
   for (const unsigned int face : body.faces[own])
     {
-      std::string name;
-      for (unsigned int s = 0; s < body.sets.size(); ++s)
-        if (body.faces[s].count(face) > 0)
-          name += (name.empty() ? "" : " and ") + boundary_name(b, body.sets[s]);
+      const auto name = face_name(b, face);
       if (std::find(result.begin(), result.end(), name) == result.end())
         result.push_back(name);
     }
   std::sort(result.begin(), result.end());
   return result;
+}
+
+std::optional<std::string> DeckBodies::boundary_at(const unsigned int b,
+                                                   const unsigned int node) const
+{
+  std::vector<unsigned int> around = {node}; // or the corners in whose middle the node lies
+  for (const auto &[corners, middle] : mesh.middles)
+    if (middle == node)
+      around = corners;
+  for (const auto &[corners, face] : bodies[b].outer)
+    if (std::includes(corners.begin(), corners.end(), around.begin(), around.end()))
+      {
+        // Faces of a body without 'Boundary sets' have the names of their groups.
+        for (const auto &[set, faces] : faces_of_set)
+          if (bodies[b].sets.empty() && std::count(faces.begin(), faces.end(), corners) > 0)
+            return set;
+        return face_name(b, face);
+      }
+  return {};
+}
+
+std::vector<double> DeckBodies::position(const unsigned int node) const
+{
+  std::vector<double> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    result.push_back(mesh.points[node][d]);
+  return result;
+}
+
+bool DeckBodies::is_second_order() const
+{
+  return std::all_of(mesh.elements.begin(), mesh.elements.end(), [&](const auto &element) {
+    return mesh_file::dimension(element.shape) < dim ||
+           mesh.middles.count(sorted({element.corners[0], element.corners[1]})) > 0;
+  });
 }
 
 unsigned int DeckBodies::nodes_without_face(const std::string &set) const

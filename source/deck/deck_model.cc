@@ -8,6 +8,7 @@ namespace {
 using mesh_file::error_at_line;
 using mesh_file::Keyword;
 using mesh_file::keyword_error;
+using mesh_file::numbers_from;
 using mesh_file::to_number;
 using mesh_file::to_whole;
 using mesh_file::upper_case;
@@ -141,8 +142,7 @@ private:
     unsigned int        n = 0;
     text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (n++ == 0)
-        for (const auto &word : words)
-          numbers.push_back(word.empty() ? 0. : to_number(word, line));
+        numbers = numbers_from(words, 0, line);
       else
         left_out.add(title_of(keyword) + ": lines after the first", line);
     });
@@ -202,7 +202,8 @@ private:
                    line);
     else if (!bodies.use(set))
       left_out.add(title_of(keyword) +
-                     " of nodes or sets without a face whose nodes are all in the set",
+                     " of nodes or sets without a face whose nodes are all in the set" +
+                     (keyword.name == "BOUNDARY" ? "; supports hold whole faces" : ""),
                    line);
     else
       {
@@ -248,7 +249,7 @@ private:
       const auto set = key.empty() ? listed->second : sets.boundary_of_nodes(key);
       if (has_faces(keyword, set, line))
         for (const unsigned int c : components)
-          model.holds.push_back({set, c, value, line});
+          model.prescribed.push_back({set, c, value, line});
     });
   }
 
@@ -261,15 +262,6 @@ private:
     if (found == sets.spelling.end() || sets.of_nodes.count(found->first) == 0)
       throw error_at_line(line, "there is no surface '" + word + "'");
     return sets.boundary_of_nodes(found->first);
-  }
-
-  static std::vector<double>
-  numbers_from(const Words &words, const std::size_t first, const unsigned long line)
-  {
-    std::vector<double> numbers;
-    for (std::size_t i = first; i < words.size(); ++i)
-      numbers.push_back(words[i].empty() ? 0. : to_number(words[i], line));
-    return numbers;
   }
 
   /// Return a vector of dim components from {magnitude, direction}.
@@ -343,10 +335,26 @@ private:
       left_out.add(title_of(keyword) + " " + law + ": contact is hard", keyword.line);
   }
 
+  /// Read a line "node or set, component, force".
   void read_point_load(const Keyword &keyword)
   {
-    text.for_each_line(keyword, [&](const Words & /*words*/, const unsigned long line) {
-      left_out.add(title_of(keyword), line);
+    text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (words.size() < 3)
+        throw error_at_line(line, "a node or set, a component and a force are expected");
+      const auto   nodes     = sets.nodes(words[0], "", keyword.title, line);
+      const auto   component = to_whole(words[1], line);
+      const double force     = to_number(words[2], line);
+      if (component < 1 || component > bodies.dimension())
+        return left_out.add(title_of(keyword) + " of component " + words[1], line);
+      if (component == 1 && model.model == "axisymmetric")
+        return left_out.add(title_of(keyword) + " along the radius of an axisymmetric model", line);
+      for (const unsigned int node : nodes)
+        {
+          auto &sum = model.point_forces[node];
+          sum.components.resize(bodies.dimension(), 0.);
+          sum.components[component - 1] += force;
+          sum.lines.push_back(line);
+        }
     });
   }
 

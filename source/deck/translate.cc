@@ -7,6 +7,9 @@
 
 namespace snug::deck {
 namespace {
+/// Maximum number of nodes with forces of a deck. Loads of more nodes are those of faces.
+const std::size_t most_point_forces = 20;
+
 using mesh_file::error_at_line;
 using mesh_file::upper_case;
 
@@ -47,6 +50,8 @@ public:
       write("set Model = " + model.model);
     if (model.thickness && bodies.dimension() == 2)
       write("set Thickness = " + to_text(*model.thickness));
+    if (bodies.is_second_order())
+      write("set Element degree = 2");
     std::vector<std::string> names;
     for (const auto &body : bodies.all())
       names.push_back(body.name);
@@ -56,6 +61,7 @@ public:
       names.push_back(name_of(*material));
     write("set Materials = " + to_text(names));
     write_gravity();
+    place_point_forces();
     for (const auto *material : used)
       write_material(*material);
     for (unsigned int b = 0; b < bodies.all().size(); ++b)
@@ -70,7 +76,8 @@ private:
   const std::string                       &file;
   LeftOut                                 &left_out;
   std::ostringstream                       out;
-  std::vector<const DeckModel::Material *> used; ///< materials of cells
+  std::vector<const DeckModel::Material *> used;         ///< materials of cells
+  std::vector<Entry>                       point_forces; ///< per body
 
   void write(const std::string &line) { out << line << '\n'; }
 
@@ -173,9 +180,10 @@ private:
         names[set] = bodies.boundary_name(b, set);
     write_entry({"Boundary names", to_text(names)});
     write_entry(materials_of(body));
-    write_holds(b);
+    write_prescribed(b);
     write_loads(b, {"Pressure"}, model.pressures);
     write_loads(b, {"Traction"}, model.tractions);
+    write_entry(point_forces[b]);
     write("end");
   }
 
@@ -197,26 +205,27 @@ private:
   }
 
   /// Write supports and prescribed displacements. Of several values the last one counts.
-  void write_holds(const unsigned int b)
+  void write_prescribed(const unsigned int b)
   {
-    std::map<std::string, std::map<unsigned int, const DeckModel::Hold *>> holds;
-    for (const auto &hold : model.holds)
-      for (const auto &boundary : bodies.boundaries(b, hold.set))
-        holds[boundary][hold.component] = &hold;
+    std::map<std::string, std::map<unsigned int, const DeckModel::PrescribedComponent *>>
+      prescribed;
+    for (const auto &component : model.prescribed)
+      for (const auto &boundary : bodies.boundaries(b, component.set))
+        prescribed[boundary][component.component] = &component;
     Entry supports{"Supports"}, displacements{"Displacement"};
-    for (const auto &[boundary, of_components] : holds)
+    for (const auto &[boundary, of_components] : prescribed)
       {
         std::string components;
-        for (const auto &[c, hold] : of_components)
-          if (hold->value == 0.)
+        for (const auto &[c, of] : of_components)
+          if (of->value == 0.)
             {
               components += "xyz"[c];
-              supports.add_line(hold->line);
+              supports.add_line(of->line);
             }
           else
             {
-              displacements.add(boundary + ": " + "xyz"[c] + " = " + to_text(hold->value));
-              displacements.add_line(hold->line);
+              displacements.add(boundary + ": " + "xyz"[c] + " = " + to_text(of->value));
+              displacements.add_line(of->line);
             }
         if (!components.empty())
           supports.add(boundary + ": " + components);
@@ -241,6 +250,34 @@ private:
     for (const auto &[boundary, sum] : sums)
       entry.add(boundary + ": " + to_text(sum, ' '));
     write_entry(entry);
+  }
+
+  /// Assign the forces at nodes to boundaries of the bodies.
+  void place_point_forces()
+  {
+    point_forces.resize(bodies.all().size(), {"Point force"});
+    const bool              are_many = model.point_forces.size() > most_point_forces;
+    std::set<unsigned long> without_boundary, of_many;
+    for (const auto &[node, force] : model.point_forces)
+      {
+        std::optional<std::string> boundary;
+        for (unsigned int b = 0; b < point_forces.size() && !boundary && !are_many; ++b)
+          if ((boundary = bodies.boundary_at(b, node)))
+            {
+              point_forces[b].add(*boundary + ": " + to_text(force.components, ' ') + " at " +
+                                  to_text(bodies.position(node), ' '));
+              for (const auto line : force.lines)
+                point_forces[b].add_line(line);
+            }
+        if (!boundary)
+          (are_many ? of_many : without_boundary).insert(force.lines.begin(), force.lines.end());
+      }
+    for (const auto line : without_boundary)
+      left_out.add("*CLOAD of nodes on no boundary of a body", line);
+    for (const auto line : of_many)
+      left_out.add("*CLOAD of more than " + std::to_string(most_point_forces) +
+                     " nodes; use *DSLOAD",
+                   line);
   }
 
   /// Return the side of a contact: "body.a + body.a and b".

@@ -270,7 +270,7 @@ std::string rows_text(const Sources<dim>             &sources,
 {
   const std::string axes     = dim == 3 ? "xyz" : "xy";
   const bool        friction = state.has_friction();
-  std::string       text     = "pair,";
+  std::string       text     = "pair,node,";
   for (const char axis : axes)
     text += std::string(1, axis) + ',';
   for (const char axis : axes)
@@ -295,7 +295,8 @@ std::string rows_text(const Sources<dim>             &sources,
     {
       const auto &row   = sources.places[i];
       const auto &point = state.contact[i];
-      text += std::to_string(row.named);
+      text += std::to_string(row.named) + ',' +
+              std::to_string(sources.number_of[sources.surface.global_node(row.slave)] + 1);
       for (unsigned int c = 0; c < dim; ++c)
         text += ',' + exact(fields.positions[row.slave][c]);
       for (unsigned int c = 0; c < dim; ++c)

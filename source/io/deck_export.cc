@@ -50,6 +50,10 @@ public:
       left_out.push_back("load cases after '" + model.name + "'");
     if (!(model.position == contact::Position<dim>()))
       left_out.push_back("'Position' of load case '" + model.name + "'");
+    if (!solver.model().springs.empty())
+      left_out.push_back("springs");
+    if (is_heated())
+      left_out.push_back("temperatures, instead of which it has the forces of the thermal strains");
   }
 
   DeckExport result()
@@ -270,13 +274,21 @@ private:
     out += equations + (along_axes.empty() ? "" : "*BOUNDARY\n" + along_axes);
   }
 
+  bool is_heated() const
+  {
+    const auto &bodies = solver.model().load_cases.front().bodies;
+    return std::any_of(bodies.begin(), bodies.end(),
+                       [](const auto &body) { return bool(body.temperature); });
+  }
+
   /// Return constant pressures and gravity as text; nothing if there are other loads.
   std::optional<std::string> simple_loads() const
   {
     std::string text;
     for (const auto &[prefix, loads] : load_parameters())
       {
-        if (!loads->traction.empty() || !loads->force.empty() || !loads->moment.empty())
+        if (!loads->traction.empty() || !loads->force.empty() || !loads->moment.empty() ||
+            !loads->point_forces.empty() || !loads->line_forces.empty() || is_heated())
           return {};
         for (const auto &[boundary, formula] : loads->pressure)
           {

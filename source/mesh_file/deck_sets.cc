@@ -31,9 +31,7 @@ InstancePlace instance_place(const DeckText &deck, const Keyword &keyword)
   InstancePlace place;
   unsigned int  n = 0;
   deck.for_each_line(keyword, [&](const std::vector<std::string> &words, const unsigned long line) {
-    std::vector<double> values;
-    for (const auto &word : words)
-      values.push_back(word.empty() ? 0. : to_number(word, line));
+    auto              values = numbers_from(words, 0, line);
     const std::size_t wanted = n == 0 ? 3 : 7;
     if (values.size() > wanted || (n == 1 && values.size() < wanted) || n > 1)
       throw error_at_line(line, "an instance must have a translation of 3 numbers, then a "

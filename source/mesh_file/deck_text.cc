@@ -139,6 +139,16 @@ std::vector<std::string> deck_words(const std::string &line)
   return words;
 }
 
+std::vector<double> numbers_from(const std::vector<std::string> &words,
+                                 const std::size_t               first,
+                                 const unsigned long             line)
+{
+  std::vector<double> numbers;
+  for (std::size_t i = first; i < words.size(); ++i)
+    numbers.push_back(words[i].empty() ? 0. : to_number(words[i], line));
+  return numbers;
+}
+
 std::string Keyword::option(const std::string &key) const
 {
   const auto found = options.find(key);

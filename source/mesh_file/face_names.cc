@@ -118,7 +118,7 @@ void FaceNames::name_optional(const std::string &name)
   const auto            &nodes = found->second.nodes;
   std::set<unsigned int> used;
   for (const auto &face : outer)
-    if (std::all_of(face.begin(), face.end(), [&](const auto n) { return nodes.count(n) > 0; }))
+    if (found->second.has_corners(face))
       {
         name_face({face_shape(face), face, {}, 0, 0}, name);
         used.insert(face.begin(), face.end());

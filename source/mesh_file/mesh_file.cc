@@ -1,6 +1,8 @@
 #include <snug/mesh_file/mesh_formats.h>
 #include <snug/mesh_file/mesh_text.h>
 
+#include <algorithm>
+
 namespace snug::mesh_file {
 namespace {
 /// Properties of a shape. The rows below have the order of ElementShape.
@@ -29,6 +31,12 @@ unsigned int dimension(const ElementShape shape)
 unsigned int n_corners(const ElementShape shape)
 {
   return row(shape).n_corners;
+}
+
+bool MeshFile::OptionalBoundary::has_corners(const std::vector<unsigned int> &corners) const
+{
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](const unsigned int corner) { return nodes.count(corner) > 0; });
 }
 
 std::string count_shapes(const std::vector<MeshFile::Element> &elements)

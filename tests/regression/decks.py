@@ -7,6 +7,7 @@ files of a designed scene are read back to the same state, and CalculiX finds it
 contact pressures as far as its penalty and its elements allow."""
 
 import argparse
+import csv
 import json
 import pathlib
 import shutil
@@ -44,6 +45,8 @@ end
 # Measured difference of the peak pressures of the designed punch
 PEAK = 0.03
 EXACT = ["Solver/Relative tolerance=1e-12", "Accuracy/Estimate=none"]
+# Forces of the deck of check_forces(), which has more of them at nodes that are held
+FORCES = "Body upper/Point force=top: 0 0 -7 at 2 2 2, top: 0 0 2 at 2 0 2, top: 0 0 -1 at 0 0 2"
 # What the decks contain beyond the parameter file, with the lines
 LEFT_OUT = {
     "cae-blocks.inp": ["*FRICTION: the option SLIPTOLERANCE (line 90)",
@@ -51,7 +54,7 @@ LEFT_OUT = {
                        "*OUTPUT (lines 126 and 127)"],
     "ccx-blocks.inp": ["*SURFACE BEHAVIOR LINEAR: contact is hard (line 66)",
                        "*STEP: the option NLGEOM (line 83)", "*NODE FILE (line 91)"],
-    "prepomax-blocks.inp": ["without a face whose nodes are all in the set (line 136)",
+    "prepomax-blocks.inp": ["are all in the set; supports hold whole faces (line 136)",
                             "*NODE FILE (line 148)"]}
 # A punch whose bottom is designed, on a flat block, at both of which nodes match. The rows have the
 # normal of the flat master side, so that the true surface between the nodes does not matter.
@@ -111,6 +114,11 @@ WRONG = [
     ("NFIX,1,3", "NFIX,one,3", ["'one'"]),
     ("11,P2,10.", "11,P9,10.", ["has no face 'P9'"]),
     ("11,P2,10.", "11,P2,ten", ["'ten' is not a number"]),
+    ("*NODE FILE\nU", "*CLOAD\nNFIX,3", ["line 92", "a node or set, a component and a force"]),
+    ("*NODE FILE\nU", "*CLOAD\nNXXX,3,1", ["line 92", "'NXXX'", "neither a set"]),
+    ("*NODE FILE\nU", "*CLOAD\n999,3,1", ["line 92", "the node 999"]),
+    ("*NODE FILE\nU", "*CLOAD\n118,z,1", ["line 92", "'z'"]),
+    ("*NODE FILE\nU", "*CLOAD\n118,3,one", ["line 92", "'one' is not a number"]),
     ("** two blocks", "two blocks", ["needs a deck"]),
     ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=B31", ["element type 'B31'"]),
     ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["more.inp"]),
@@ -188,6 +196,26 @@ def check_includes(runner, meshes):
                    "more than 10 files" in done.stdout, done.stdout)
 
 
+def check_forces(runner, meshes):
+    """Forces at nodes, of which one has two: the entry of a parameter file, and of a written deck."""
+    scene, deck = runner.folder / "blocks.prm", runner.folder / "forces.inp"
+    deck.write_text((meshes / "ccx-blocks.inp").read_text().replace(
+        "*NODE FILE\nU", "*CLOAD\n118, 3, -3\n112, 3, 2\n110, 3, -1\n118, 3, -4\nNFIX, 1, 3"))
+    expected, _ = runner.summary("forces", scene, *EXACT, FORCES)
+    found, _ = runner.summary("forces.inp.out", deck, *EXACT, ranks=2)
+    runner.compare("forces at nodes", found, expected, 1e-12)
+    for title, *entries in (("quadratic", "Element degree=2"),
+                            ("written forces", "Body upper/Point force=top: 0 0 -7 at 1.3 0.6 2")):
+        expected, output = runner.summary(title, scene, *EXACT, *entries, "Output/Meshes=inp")
+        found, _ = runner.summary(title + ".read", output / "bodies.inp", *EXACT)
+        runner.compare(f"{title}, read back", found, expected, 1e-9)
+    _, output = runner.summary("warm", scene, "Output/Meshes=inp", "Body upper/Springs=top: z = 1",
+                               "Body upper/Expansion=1e-3", "Body upper/Temperature=1")
+    text = (output / "bodies.inp").read_text()
+    for line in ("springs", "temperatures, instead of which it has the forces"):
+        runner.require(f"a deck lacks {line}", f"** not in this deck: {line}" in text)
+
+
 def check_wrong_decks(runner, meshes):
     good = (meshes / "ccx-blocks.inp").read_text()
     for number, (old, new, words) in enumerate(WRONG):
@@ -200,6 +228,17 @@ def check_wrong_decks(runner, meshes):
                        done.returncode == 2 and done.stdout.count("\n") == 1 and
                        all(word in done.stdout for word in [path.name, *words]),
                        done.stdout[:300])
+
+
+def check_node_numbers(runner, output):
+    """The last contact table names the nodes of the written mesh at its positions."""
+    mesh = (output / "bodies.msh").read_text().split("$Nodes\n")[1].split("$EndNodes")[0]
+    nodes = {words[0]: [float(x) for x in words[1:]]
+             for words in map(str.split, mesh.splitlines()[1:])}
+    with open(sorted(output.glob("contact-*.csv"))[-1], encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    runner.require(f"node numbers of {output.name}", len(rows) == 25 and all(
+        nodes[row["node"]] == [float(row[axis]) for axis in "xyz"] for row in rows))
 
 
 def check_read_back(runner):
@@ -224,6 +263,8 @@ def check_read_back(runner):
         runner.require(f"bodies.{ending} on 3 ranks",
                        (other / f"bodies.{ending}").read_text() ==
                        (one / f"bodies.{ending}").read_text())
+    for folder in (output, other):
+        check_node_numbers(runner, folder)
     return designed, output
 
 
@@ -268,6 +309,7 @@ def main():
         runner = Runner(options.snug.resolve(), options.mpiexec, pathlib.Path(folder))
         check_decks(runner, options.meshes)
         check_includes(runner, options.meshes)
+        check_forces(runner, options.meshes)
         check_wrong_decks(runner, options.meshes)
         check_calculix(runner, *check_read_back(runner), options.meshes.parent / "scenes")
     print("\n".join(runner.wrong) or "all right")

@@ -27,7 +27,11 @@ public:
   explicit Results(const ShapeProblem<dim> &problem);
 
   /// Set the problem of all following results: the same scene on another mesh.
-  void watch(const ShapeProblem<dim> &other) { problem = &other; }
+  void watch(const ShapeProblem<dim> &other)
+  {
+    problem = &other;
+    node_numbers.reset();
+  }
 
   /// Print what was read. Collective.
   void print_header();
@@ -110,6 +114,9 @@ private:
   /// Write the 'Meshes' of the scene at the positions of @p state. Collective.
   void export_meshes(const state::ContactState<dim> &state);
 
+  /// Return WholeMesh::number_of of the mesh. Collective.
+  const std::vector<unsigned int> &numbers_of_nodes();
+
   /// Writers of one load case.
   struct Pictures
   {
@@ -123,6 +130,8 @@ private:
   std::vector<std::string>        warnings;
   std::vector<io::Summary::State> first_states; ///< per load case
   std::vector<MeshError>          last_errors;  ///< of add_last()
+  /// numbers_of_nodes() of the mesh of the problem, after the first call
+  std::optional<std::vector<unsigned int>> node_numbers;
 
   void print_pairs(unsigned int load_case, bool is_one_of_several) const;
 };

@@ -3,6 +3,8 @@
 
 #include <snug/mesh_file/deck_sets.h>
 
+#include <optional>
+
 namespace snug::deck {
 /**
  * This class divides the mesh of a deck into bodies of connected cells, and finds the faces of sets
@@ -29,6 +31,9 @@ public:
   const std::vector<Body> &all() const { return bodies; }
   unsigned int             dimension() const { return dim; }
 
+  /// Return whether the edges of all cells have middle nodes.
+  bool is_second_order() const;
+
   /// Use a set of faces or an optional boundary. Return whether a body has such a face.
   bool use(const std::string &set);
 
@@ -42,6 +47,13 @@ public:
   /// All sets must have been used before.
   std::vector<std::string> boundaries(unsigned int body, const std::string &set) const;
 
+  /// Return a boundary of a body on which the node lies, or nothing. Faces of no set are the
+  /// boundary "free". All sets must have been used before.
+  std::optional<std::string> boundary_at(unsigned int body, unsigned int node) const;
+
+  /// Return the position of a node, one number per dimension [length].
+  std::vector<double> position(unsigned int node) const;
+
   /// Return the number of nodes of the optional boundary @p set that lie on none of its faces.
   unsigned int nodes_without_face(const std::string &set) const;
 
@@ -54,6 +66,7 @@ private:
   std::map<std::string, std::vector<std::vector<unsigned int>>> faces_of_set;
 
   std::set<unsigned int> faces_on(const Body &body, const std::string &set) const;
+  std::string            face_name(unsigned int body, unsigned int face) const;
 };
 } // namespace snug::deck
 

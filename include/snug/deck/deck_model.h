@@ -19,8 +19,8 @@ struct DeckModel
     double                density = 0.;
   };
 
-  /// A displacement component of a set.
-  struct Hold
+  /// A displacement component of a set [length].
+  struct PrescribedComponent
   {
     std::string   set;
     unsigned int  component;
@@ -34,6 +34,13 @@ struct DeckModel
     std::string         set;
     std::vector<double> components;
     unsigned long       line;
+  };
+
+  /// The sum of the forces at a node [force].
+  struct PointForce
+  {
+    std::vector<double>        components;
+    std::vector<unsigned long> lines;
   };
 
   /// Gravity of the elements of a set.
@@ -53,8 +60,9 @@ struct DeckModel
   std::vector<Material>               materials;
   std::map<unsigned int, std::string> material_of; ///< element -> material
   std::map<unsigned int, std::string> region_of;   ///< element -> set of its section
-  std::vector<Hold>                   holds;
+  std::vector<PrescribedComponent>    prescribed;
   std::vector<FaceLoad>               pressures, tractions;
+  std::map<unsigned int, PointForce>  point_forces; ///< by node
   std::vector<Gravity>                gravities;
   std::vector<Contact>                contacts;
   std::map<std::string, double>       friction; ///< interaction in upper case -> coefficient

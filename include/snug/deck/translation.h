@@ -25,13 +25,15 @@ bool is_deck(const std::string &text);
  * - *BOUNDARY becomes supports and prescribed displacements, *DSLOAD and *DLOAD pressures,
  *   tractions and gravity, *CONTACT PAIR, *SURFACE INTERACTION and *FRICTION contact pairs. Node
  *   sets stand for the faces whose nodes are all in the set.
+ * - *CLOAD of up to 20 nodes on boundaries becomes point forces. Forces of a node are added.
+ * - The elements have degree 2 if all cells are of second order.
  * - The loads are those of the first step.
  *
  * All other keywords, and lines that have no counterpart, are listed in left_out.
  *
  * @param[in] file Name of the deck, to which the entries 'File' refer.
- * @throws InputError with the line if the mesh cannot be read, or if cells have no isotropic
- *   material.
+ * @throws InputError with the line if the mesh or a data line cannot be read, or if cells have no
+ *   isotropic material.
  */
 Translation translate(const std::string &text, const std::string &file);
 } // namespace snug::deck

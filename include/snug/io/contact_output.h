@@ -44,9 +44,9 @@ namespace snug::io {
  * and are active or weak if all their masters are. The same holds for nodes without a row for
  * which other rows act (mortar). At all other nodes they are 0. A node of several pairs has one
  * point in each pair. In the table a row has the pair with the maximum share in the row.
- * The table also has the unit outward normals of the slave side and, in 2D, arc_length, the length
- * along the undeformed boundary from its begin. Its rows are sorted by pair and along the
- * boundaries.
+ * The table also has the numbers of the slave nodes in bodies.msh and bodies.inp, the unit outward
+ * normals of the slave side and, in 2D, arc_length, the length along the undeformed boundary from
+ * its begin. Its rows are sorted by pair and along the boundaries.
  */
 template <int dim>
 class ContactOutput
@@ -61,6 +61,8 @@ public:
     const std::vector<contact::RowPlace>            &places;
     const std::vector<contact::DependentMultiplier> &dependent_multipliers;
     const contact::PlacedSurface<dim>               &placed;
+    /// WholeMesh::number_of, on rank 0; not used if there are no rows
+    const std::vector<unsigned int> &number_of;
   };
 
   /// Files go to the directory @p directory, which must exist. Blocks have the @p body_names.

@@ -68,6 +68,11 @@ std::string upper_case(std::string text);
 
 /// Return the words between commas, without blanks at their ends and without quotes.
 std::vector<std::string> deck_words(const std::string &line);
+
+/// Return the words from index @p first on as numbers; an empty word is 0. @throws InputError at
+/// @p line.
+std::vector<double>
+numbers_from(const std::vector<std::string> &words, std::size_t first, unsigned long line);
 } // namespace snug::mesh_file
 
 #endif

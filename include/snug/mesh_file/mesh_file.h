@@ -52,6 +52,9 @@ struct MeshFile
   {
     std::set<unsigned int> nodes; ///< indices into points
     std::vector<Element>   faces;
+
+    /// Return whether all corners of a face are among the nodes.
+    bool has_corners(const std::vector<unsigned int> &corners) const;
   };
   std::map<std::string, OptionalBoundary> optional_boundaries;
 };

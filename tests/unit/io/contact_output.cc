@@ -1,4 +1,5 @@
 #include <snug/io/contact_output.h>
+#include <snug/io/whole_mesh.h>
 
 #include <gtest/gtest.h>
 
@@ -52,7 +53,7 @@ struct ContactScene
 
   typename io::ContactOutput<dim>::Sources sources() const
   {
-    return {mesh, surface, pairs, places, shared, placed};
+    return {mesh, surface, pairs, places, shared, placed, whole.number_of};
   }
 
   mesh::BodyMesh<dim>                       mesh;
@@ -63,6 +64,7 @@ struct ContactScene
   std::vector<contact::RowPlace>            places;
   std::vector<contact::DependentMultiplier> shared;
   state::ContactState<dim>                  state;
+  io::WholeMesh<dim> whole = io::gather_mesh<dim>(mesh, mesh.reference_positions());
 };
 
 template <int dim>
@@ -152,24 +154,29 @@ TEST(ContactOutput, TableReadsBackBitForBit)
     return;
   const auto table = test::read_csv(test::read_file(scratch.file("contact-0001.csv")));
   ASSERT_EQ(table.size(), scene.state.contact.size() + 1);
-  EXPECT_EQ(table[0],
-            (std::vector<std::string>{"pair", "x", "y", "z", "normal_x", "normal_y", "normal_z",
-                                      "force", "pressure", "gap", "area", "active", "weak"}));
+  EXPECT_EQ(table[0], (std::vector<std::string>{"pair", "node", "x", "y", "z", "normal_x",
+                                                "normal_y", "normal_z", "force", "pressure", "gap",
+                                                "area", "active", "weak"}));
   for (unsigned int i = 0; i < scene.state.contact.size(); ++i)
     {
       const auto &fields = table[i + 1];
       const auto &point  = scene.state.contact[i];
-      ASSERT_EQ(fields.size(), 13u);
+      ASSERT_EQ(fields.size(), 14u);
+      // The number is that of the node at this place in mesh files.
       for (unsigned int c = 0; c < 3; ++c)
-        EXPECT_EQ(std::stod(fields[1 + c]), x[scene.places[i].slave][c]);
+        {
+          EXPECT_EQ(std::stod(fields[2 + c]), x[scene.places[i].slave][c]);
+          EXPECT_EQ(std::stod(fields[2 + c]),
+                    scene.whole.positions.at(std::stoul(fields[1]) - 1)[c]);
+        }
       for (unsigned int c = 0; c < 3; ++c) // of the bottom of a box
-        EXPECT_NEAR(std::stod(fields[4 + c]), c == 2 ? -1. : 0., 1e-14);
-      EXPECT_EQ(std::stod(fields[7]), point.force);
-      EXPECT_EQ(std::stod(fields[8]), point.pressure);
-      EXPECT_EQ(std::stod(fields[9]), point.gap);
-      EXPECT_EQ(std::stod(fields[10]), point.area);
-      EXPECT_EQ(fields[11], point.active ? "1" : "0");
-      EXPECT_EQ(fields[12], point.weak ? "1" : "0");
+        EXPECT_NEAR(std::stod(fields[5 + c]), c == 2 ? -1. : 0., 1e-14);
+      EXPECT_EQ(std::stod(fields[8]), point.force);
+      EXPECT_EQ(std::stod(fields[9]), point.pressure);
+      EXPECT_EQ(std::stod(fields[10]), point.gap);
+      EXPECT_EQ(std::stod(fields[11]), point.area);
+      EXPECT_EQ(fields[12], point.active ? "1" : "0");
+      EXPECT_EQ(fields[13], point.weak ? "1" : "0");
     }
   const auto pvd = test::read_file(scratch.file("contact.pvd"));
   EXPECT_EQ(test::count(pvd, "<DataSet"), 2u);
@@ -187,13 +194,13 @@ TEST(ContactOutput, TableFollowsTheFaceInThePlane)
     return;
   const auto table = test::read_csv(test::read_file(scratch.file("contact-0000.csv")));
   ASSERT_EQ(table.size(), scene.state.contact.size() + 1);
-  ASSERT_EQ(table[0][5], "arc_length");
-  const double begin = std::stod(table[1][1]) - std::stod(table[1][5]);
+  ASSERT_EQ(table[0][6], "arc_length");
+  const double begin = std::stod(table[1][2]) - std::stod(table[1][6]);
   for (unsigned int i = 1; i < table.size(); ++i)
     {
-      EXPECT_NEAR(std::stod(table[i][1]) - begin, std::stod(table[i][5]), 1e-14);
+      EXPECT_NEAR(std::stod(table[i][2]) - begin, std::stod(table[i][6]), 1e-14);
       if (i > 1)
-        EXPECT_GT(std::stod(table[i][5]), std::stod(table[i - 1][5]));
+        EXPECT_GT(std::stod(table[i][6]), std::stod(table[i - 1][6]));
     }
 }
 
@@ -209,8 +216,8 @@ TEST(ContactOutput, WithoutPairsIsEmptyButValid)
   state::ContactState<2>                          state;
   state.positions    = mesh.reference_positions();
   state.displacement = mesh.reference_positions();
-  output.write({mesh, surface, pairs, places, shared, contact::PlacedSurface<2>(surface, {})}, 0.,
-               state);
+  output.write({mesh, surface, pairs, places, shared, contact::PlacedSurface<2>(surface, {}), {}},
+               0., state);
   if (!scratch.is_first())
     return;
   EXPECT_EQ(test::count(test::read_file(scratch.file("contact-0000.vtm")), "<DataSet"), 0u);
