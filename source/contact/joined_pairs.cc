@@ -1,3 +1,4 @@
+#include <snug/base/disjoint_sets.h>
 #include <snug/contact/joined_pairs.h>
 #include <snug/faces/nodal_normals.h>
 #include <snug/geometry/face_list.h>
@@ -6,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -67,30 +67,6 @@ void name_sides(const std::vector<Pair> &pairs, JoinedPair &joined)
 }
 } // namespace
 
-/// Disjoint sets of numbers that are united step by step. The smallest number of a set represents
-/// it.
-class Unions
-{
-public:
-  explicit Unions(const unsigned int n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-
-  unsigned int root(unsigned int i) const
-  {
-    while (parent[i] != i)
-      i = parent[i];
-    return i;
-  }
-
-  void unite(const unsigned int i, const unsigned int j)
-  {
-    const auto [low, high] = std::minmax({root(i), root(j)});
-    parent[high]           = low;
-  }
-
-private:
-  std::vector<unsigned int> parent;
-};
-
 /// This class finds which boundaries of the pairs continue each other smoothly.
 template <int dim>
 class SmoothSurfaces
@@ -118,7 +94,7 @@ public:
           if (normals[i][node] * normals[j][node] > least_cosine)
             {
               meetings.insert({i, j});
-              surfaces.unite(i, j);
+              surfaces.join(i, j);
               break;
             }
   }
@@ -132,12 +108,12 @@ public:
 
   Boundary surface_of(const Boundary &boundary) const
   {
-    return boundaries[surfaces.root(index(boundary))];
+    return boundaries[surfaces.find(index(boundary))];
   }
 
 private:
   const std::vector<Boundary>                     boundaries;
-  Unions                                          surfaces;
+  DisjointSets                                    surfaces;
   std::set<std::pair<unsigned int, unsigned int>> meetings;
 
   unsigned int index(const Boundary &boundary) const
@@ -202,16 +178,16 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
         }
       parts.insert(parts.end(), own.begin(), own.end());
     }
-  Unions unions(parts.size());
+  DisjointSets unions(parts.size());
   for (unsigned int i = 0; i < parts.size(); ++i)
     for (unsigned int j = i + 1; j < parts.size(); ++j)
       if (can_join(parts[i], parts[j]))
-        unions.unite(i, j);
+        unions.join(i, j);
   std::map<unsigned int, JoinedPair> joined; // keyed by the first part
   for (unsigned int i = 0; i < parts.size(); ++i)
     {
       const auto &part           = parts[i];
-      const auto [place, is_new] = joined.try_emplace(unions.root(i));
+      const auto [place, is_new] = joined.try_emplace(unions.find(i));
       JoinedPair &of             = place->second;
       if (is_new)
         {

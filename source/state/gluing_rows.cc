@@ -1,3 +1,4 @@
+#include <snug/base/disjoint_sets.h>
 #include <snug/base/narrow.h>
 #include <snug/state/gluing_rows.h>
 
@@ -30,24 +31,14 @@ template <int dim>
 std::vector<unsigned int> contact_clusters(const unsigned int                       n_nodes,
                                            const std::vector<RowCoefficients<dim>> &positions)
 {
-  std::vector<unsigned int> root(n_nodes);
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](unsigned int i) {
-    while (root[i] != i)
-      i = root[i] = root[root[i]];
-    return i;
-  };
+  DisjointSets clusters(n_nodes);
   for (const auto &rows : positions)
     for (unsigned int i = 0; i < rows.n_rows(); ++i)
       for (const auto &c : rows.row(i).coefficients)
-        {
-          const unsigned int a = find(rows.row(i).coefficients.front().first);
-          const unsigned int b = find(c.first);
-          // The root is the first node of its cluster, for any order of the rows.
-          root[std::max(a, b)] = std::min(a, b);
-        }
+        clusters.join(rows.row(i).coefficients.front().first, c.first);
+  std::vector<unsigned int> root(n_nodes);
   for (unsigned int node = 0; node < n_nodes; ++node)
-    root[node] = find(node);
+    root[node] = clusters.find(node);
   return root;
 }
 

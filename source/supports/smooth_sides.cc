@@ -1,8 +1,8 @@
+#include <snug/base/disjoint_sets.h>
 #include <snug/supports/smooth_sides.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace snug::supports {
 namespace {
@@ -21,28 +21,6 @@ struct Corner
   dealii::Tensor<1, dim> normal;
 };
 
-/// Disjoint sets that are joined one by one.
-class DisjointSets
-{
-public:
-  explicit DisjointSets(unsigned int n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-
-  unsigned int find(unsigned int i)
-  {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  }
-
-  void join(unsigned int i, unsigned int j)
-  {
-    const unsigned int a = find(i), b = find(j);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<unsigned int> parent;
-};
 } // namespace
 
 template <int dim>
