@@ -9,7 +9,6 @@ import importlib.util
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -21,18 +20,22 @@ if importlib.util.find_spec("scipy") is None and sys.executable != SYSTEM:
 import numpy  # noqa: E402
 from scipy.optimize import minimize  # noqa: E402
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"))
+
+from runs import execute, execute_in_common  # noqa: E402
+
 TOLERANCE = 1e-5
 # of the load cases of the scene
 WEIGHTS = {"middle": 1., "rocking-0": 1., "rocking-1": 0.7}
 
 
 def run(snug, scene, folder, *sets, launcher=()):
-    command = [*launcher, snug, scene, "--output", str(folder)]
+    words = [*launcher, snug, scene, "--output", str(folder)]
     for text in sets:
-        command += ["--set", text]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: status {done.returncode}\n{done.stderr}")
+        words += ["--set", text]
+    status, _, said, *_ = execute(words) if launcher else execute_in_common(words)
+    if status != 0:
+        sys.exit(f"{' '.join(words)}: status {status}\n{said}")
     return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
 
 
