@@ -88,7 +88,7 @@ Ending end_of_child(const std::vector<std::string> &words, const Limits &limits)
   return ending;
 }
 
-/// What all ranks said, one after the other; on rank 0.
+/// Return what all ranks said, one after the other, on rank 0.
 std::string gathered(const std::string &said)
 {
   std::string all;
