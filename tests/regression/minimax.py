@@ -3,7 +3,8 @@
 
 Snug minimizes the worst weighted peak pressure of three positions at a fixed volume. SLSQP of scipy
 solves the same problem with a variable for the maximum; for each of its designs the values and the
-gradients of all load cases come from a run of Snug. Both reach the same maximum. Searches on two and three ranks end at the same maximum."""
+gradients of all load cases come from a run of Snug. Both reach the same maximum. A search on three ranks
+ends there, too."""
 
 import importlib.util
 import json
@@ -99,12 +100,10 @@ def main():
         print(f"snug {found:.8g}, scipy {best:.8g} at {design}")
         if not abs(found - best) <= TOLERANCE * best:
             sys.exit("the minimax values differ")
-        for ranks in (2, 3):
-            other = run(snug, scene, folder / f"np{ranks}",
-                        launcher=[mpiexec, "-np", str(ranks)])
-            value = other["optimization"]["objective_final"]
-            if not abs(found - value) <= 1e-6 * found:
-                sys.exit(f"{ranks} ranks: {value} instead of {found}")
+        other = run(snug, scene, folder / "np3", launcher=[mpiexec, "-np", "3"])
+        value = other["optimization"]["objective_final"]
+        if not abs(found - value) <= 1e-6 * found:
+            sys.exit(f"3 ranks: {value} instead of {found}")
 
 
 if __name__ == "__main__":
