@@ -79,12 +79,13 @@ function(snug_add_regression_test name)
 endfunction()
 
 # snug_add_script_test(name LABELS label... SCRIPT file.py [arguments]): a test
-# that is a Python program; it fails with its exit status.
+# that is a Python program; it fails with its exit status. Runs of snug on one rank may share a
+# start of stability.many.
 function(snug_add_script_test name)
   cmake_parse_arguments(ARG "" "" "LABELS;SCRIPT" ${ARGN})
   list(POP_FRONT ARG_SCRIPT script)
   add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} -B
            ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARG_SCRIPT})
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 300
-    ENVIRONMENT "${SNUG_TEST_ENVIRONMENT}")
+    ENVIRONMENT "${SNUG_TEST_ENVIRONMENT};SNUG_MANY=$<TARGET_FILE:stability.many>")
 endfunction()

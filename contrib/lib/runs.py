@@ -4,6 +4,7 @@ All commands and studies of contrib/ run the program by this module. A scene is 
 parameter file or, with more than one line, its text. Entries change it: they are strings
 'Subsection/Entry=value', or {'Subsection/Entry': value}."""
 
+import atexit
 import collections
 import csv
 import json
@@ -16,6 +17,7 @@ import sys
 import tempfile
 import threading
 import time
+import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SECONDS = 300  # after which a run is stopped
@@ -188,11 +190,36 @@ def execute(words, timeout=SECONDS, **options):
         return process.returncode, output.read(), errors.read(), seconds, usage
 
 
+@once
+def common_start(program):
+    """Return a start of stability.many, in which runs are children that need no start."""
+    started = subprocess.Popen([program, str(SECONDS), "8000"], stdin=subprocess.PIPE, text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                               env=environment())
+    atexit.register(started.communicate)
+    return started
+
+
+def execute_in_common(words):
+    """Return what execute() does, of a run of the program on one rank. If SNUG_MANY names
+    stability.many, it is in one start of this with others: it has neither output nor memory, nor
+    the start in its times."""
+    if "SNUG_MANY" not in os.environ:
+        return execute(words)
+    started, start = common_start(os.environ["SNUG_MANY"]), time.monotonic()
+    print("\t".join(words[1:]), file=started.stdin, flush=True)
+    status, cpu, _, message = started.stdout.readline().rstrip("\n").split("\t", 3)
+    usage = types.SimpleNamespace(ru_utime=float(cpu), ru_stime=0., ru_maxrss=math.nan)
+    return int(status), "", message, time.monotonic() - start, usage
+
+
 def run(scene_file, entries=(), ranks=1, *, mesh=None, options=(), program=None, launcher=(),
-        timeout=SECONDS, accepted=(0,), inspect=Result):
+        timeout=SECONDS, accepted=(0,), inspect=Result, alone=False):
     """Return the Run of a scene. mesh: the bytes of mesh.msh beside it; options: further words
     of the command, launcher those of mpirun; accepted: the statuses of runs that leave a
-    result, None for all, which inspect(directory, share) reads."""
+    result, None for all, which inspect(directory, share) reads; alone: whether the run must not
+    be in a common start."""
+    in_common = not (alone or program or launcher) and ranks == 1
     with tempfile.TemporaryDirectory() as folder:
         directory = pathlib.Path(folder)
         path = ROOT / scene_file if "\n" not in str(scene_file) else directory / "scene.prm"
@@ -201,8 +228,9 @@ def run(scene_file, entries=(), ranks=1, *, mesh=None, options=(), program=None,
         if mesh:
             (directory / "mesh.msh").write_bytes(mesh)
         output = directory / "output"
-        status, said, errors, seconds, usage = execute(
-            command(path, entries, output, ranks, program, launcher) + list(options), timeout)
+        words = command(path, entries, output, ranks, program, launcher) + list(options)
+        status, said, errors, seconds, usage = (
+            execute_in_common(words) if in_common else execute(words, timeout))
         cpu = usage.ru_utime + usage.ru_stime
         message = next((line for line in errors.splitlines() if line.startswith("snug: ")),
                        f"stopped after {timeout} s" if seconds > timeout else "")

@@ -2,11 +2,13 @@
 """The lint checks find what they are for: each on a small tree of its own."""
 
 import json
+import os
 import pathlib
 import stat
 import subprocess
 import tempfile
 import unittest
+import unittest.mock
 
 import commits
 import compile as compiling
@@ -284,6 +286,14 @@ class Options(Tree):
 
 
 class Program(Tree):
+    def setUp(self):
+        super().setUp()
+        # Runs are of the programs written here.
+        alone = unittest.mock.patch.dict(os.environ)
+        alone.start()
+        self.addCleanup(alone.stop)
+        os.environ.pop("SNUG_MANY", None)
+
     def test_a_refused_scene_is_found(self):
         self.write("prm/a.prm", "")
         self.write("prm/more/bad.prm", "")

@@ -3,8 +3,8 @@
 
 Every wrong input ends with status 2 after less than 2 s and leaves one line on
 standard error that names the file, the entry and the value; a problem without a
-solution ends with 3. On several ranks the line is printed once. Many runs on one rank share
-a start of stability.many, which SNUG_MANY names, or that of build/."""
+solution ends with 3. On several ranks the line is printed once. Runs on equally many ranks share
+a start of stability.many, which SNUG_MANY names, or that of build/; a few start the program."""
 
 import argparse
 import os
@@ -43,7 +43,7 @@ class Runner:
         self.folder = pathlib.Path(folder)
         self.text = options.scene.read_text(encoding="utf-8")
         self.checked = self.failed = 0
-        self.waiting = []
+        self.waiting = {1: [], 3: []}
 
     def entry(self, name):
         return re.search(rf"^\s*set\s+{name}\s*=\s*([^#\n]*)", self.text,
@@ -84,15 +84,24 @@ class Runner:
             print(f"FAILED {title}: {'; '.join(problems)}")
             print(f"  standard error: {said!r}")
 
-    def expect_error(self, title, arguments, names, status=2, ranks=1):
-        """The run ends with status and one line that has all names."""
+    def expect_error_alone(self, title, arguments, names, ranks=1):
+        """The program of its own ends with status 2 and one line that has all names."""
         done, seconds = self.run(arguments, ranks)
         said = [line for line in done.stderr.splitlines() if line.strip()]
-        self.check_error(title + (f" ({ranks} ranks)" if ranks > 1 else ""), names, status,
-                         End(done.returncode, seconds if ranks == 1 else 0., len(said),
-                             done.stderr))
+        self.check_error(f"{title}, started alone", ranks, names, 2,
+                         End(done.returncode, seconds, len(said), done.stderr))
 
-    def check_error(self, title, names, status, end):
+    def expect_error(self, title, arguments, names, status=2, ranks=1):
+        """The same of a run that examine_waiting starts with all others on so many ranks."""
+        self.waiting[ranks].append((title, list(map(str, arguments)), names, status))
+
+    def examine_waiting(self):
+        for ranks, waiting in self.waiting.items():
+            ends = run_many([arguments for _, arguments, _, _ in waiting], ranks, self.folder)
+            for (title, _, names, status), end in zip(waiting, ends):
+                self.check_error(title, ranks, names, status, end)
+
+    def check_error(self, title, ranks, names, status, end):
         problems = []
         if end.status != status:
             problems.append(f"status {end.status}, not {status}")
@@ -100,18 +109,9 @@ class Runner:
             problems.append(f"{end.lines} lines on standard error, not 1")
         problems += [f"'{name}' is not named" for name in names
                      if name not in end.message]
-        if status == 2 and end.seconds > MAX_SECONDS:
+        if status == 2 and ranks == 1 and end.seconds > MAX_SECONDS:
             problems.append(f"takes {end.seconds:.1f} s")
-        self.verdict(title, problems, end.message)
-
-    def expect_error_of(self, title, arguments, names, status=2):
-        """The same of a run on one rank that examine_waiting starts with all others."""
-        self.waiting.append((title, list(map(str, arguments)), names, status))
-
-    def examine_waiting(self):
-        ends = run_many([arguments for _, arguments, _, _ in self.waiting], cwd=self.folder)
-        for (title, _, names, status), end in zip(self.waiting, ends):
-            self.check_error(title, names, status, end)
+        self.verdict(title + (f" ({ranks} ranks)" if ranks > 1 else ""), problems, end.message)
 
     def expect_success(self, title, arguments, in_output=""):
         done, _ = self.run(arguments)
@@ -128,17 +128,13 @@ class Runner:
 def check_case(runner, case, ranks=1):
     scene = runner.write(case.title, case.entries)
     names = [*case.names, scene.name] if case.entries else case.names
-    if ranks == 1 and case.entries:
-        runner.expect_error_of(case.title, [scene, *case.options], names)
-    else:
-        runner.expect_error(case.title, [scene, *case.options], names, ranks=ranks)
+    runner.expect_error(case.title, [scene, *case.options], names, ranks=ranks)
 
 
 def check_files(runner, scene):
     """Files that are not there, cannot be written or cannot be parsed."""
-    runner.expect_error("missing file", ["nowhere.prm"], ["nowhere.prm"])
-    runner.expect_error("missing file", ["nowhere.prm"], ["nowhere.prm"],
-                        ranks=3)
+    for ranks in 1, 3:
+        runner.expect_error_alone("missing file", ["nowhere.prm"], ["nowhere.prm"], ranks)
     runner.expect_error("a directory as file", [runner.folder],
                         [str(runner.folder)])
     runner.expect_error("no file at all", [], [])
@@ -188,10 +184,10 @@ def check_mesh_files(runner):
         place = [] if "Shift" in entries else [scene.name]
         if len(entries) == 0:
             place.append(path.name)
-        runner.expect_error_of(title, [scene], [*place, *names])
+        runner.expect_error(title, [scene], [*place, *names])
         runner.expect_error(title, ["--validate", scene], names, ranks=3)
     scene = mesh_scene(runner, "a mesh without end", {"File": "/dev/zero"})
-    runner.expect_error_of("mesh of a device", [scene],
+    runner.expect_error("mesh of a device", [scene],
                            [scene.name, "/dev/zero", "must be a regular file"])
     runner.expect_error("parameters without end", ["/dev/zero"],
                         ["/dev/zero", "more than 16 MB"], ranks=3)
@@ -230,7 +226,7 @@ def check_cad_files(runner):
             (folder / "gmsh").write_text(program, encoding="utf-8")
             (folder / "gmsh").chmod(0o755)
         os.environ["PATH"] = str(folder)
-        runner.expect_error(title, ["--validate", scene], [scene.name, *words])
+        runner.expect_error_alone(title, ["--validate", scene], [scene.name, *words])
         os.environ["PATH"] = path
 
 
@@ -289,7 +285,7 @@ def check_targets(runner):
         if title == "too few unknowns":
             settings.pop()
         words = [word for setting in settings for word in ("--set", setting)]
-        runner.expect_error_of(title, [ADAPTED, *words], names, 3)
+        runner.expect_error(title, [ADAPTED, *words], names, 3)
 
 
 def check_small_targets(runner):
@@ -362,6 +358,9 @@ def main():
             check_case(runner, case, ranks=3)
         for case in setup_cases(bodies[0], slave):
             check_case(runner, case._replace(options=["--validate"]))
+        # Wrong command lines end before MPI begins.
+        scene_only = [scene, "--set", "Task=optimise"]
+        runner.expect_error_alone("wrong value in a setting", scene_only, ["Task", "optimise"], 3)
         for case in partial_cases(bodies[0]):
             check_case(runner, case, ranks=3)
             check_case(runner, case._replace(options=["--validate"]))
@@ -375,7 +374,7 @@ def main():
         check_targets(runner)
         check_small_targets(runner)
         for path in options.unsolvable:
-            runner.expect_error_of(path.name, [path.resolve()], [], status=3)
+            runner.expect_error(path.name, [path.resolve()], [], status=3)
         runner.examine_waiting()
     print(f"{runner.checked} runs, {runner.failed} wrong")
     return 1 if runner.failed or not runner.checked else 0

@@ -5,7 +5,11 @@ import itertools
 import json
 import math
 import pathlib
-import subprocess
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"))
+
+from runs import execute, execute_in_common, parallel  # noqa: E402
 
 SIDES = {2: {"bottom": 1, "right": 2, "top": 3, "left": 4},
          3: {"bottom": 1, "top": 2, "front": 3, "right": 4, "back": 5, "left": 6}}
@@ -93,12 +97,10 @@ def sphere(radius, middle):
 def run(snug, directory, scene, ranks=1):
     folder = pathlib.Path(directory)
     (folder / "scene.prm").write_text(scene)
-    command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
-    done = subprocess.run([*command, snug, str(folder / "scene.prm"), "--output",
-                           str(folder / "out")], capture_output=True, text=True, timeout=300,
-                          check=False)
-    if done.returncode != 0:
-        raise RuntimeError(f"status {done.returncode}: {done.stderr.strip()[-300:]}")
+    words = [*parallel(ranks), snug, str(folder / "scene.prm"), "--output", str(folder / "out")]
+    status, _, said, *_ = execute(words) if ranks > 1 else execute_in_common(words)
+    if status != 0:
+        raise RuntimeError(f"status {status}: {said.strip()[-300:]}")
     with open(folder / "out" / "contact-0000.csv", encoding="utf-8") as file:
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
     summary = json.loads((folder / "out" / "summary.json").read_text())

@@ -15,7 +15,11 @@ import subprocess
 import sys
 import tempfile
 
-from calculix import field
+LIBRARY = pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"
+sys.path += [str(LIBRARY), str(LIBRARY / "stability")]
+
+from calculix import field  # noqa: E402
+from many import run_many  # noqa: E402
 
 BLOCKS = """
 set Bodies = lower, upper
@@ -218,16 +222,16 @@ def check_forces(runner, meshes):
 
 def check_wrong_decks(runner, meshes):
     good = (meshes / "ccx-blocks.inp").read_text()
+    arguments = []
     for number, (old, new, words) in enumerate(WRONG):
         assert old in good, old
         path = runner.folder / f"wrong-{number}.inp"
         path.write_text(good.replace(old, new, 1))
-        arguments = ["--translate", path] if "needs a deck" in words else ["--validate", path]
-        done = runner.run(*arguments)
-        runner.require(f"wrong deck {number}",
-                       done.returncode == 2 and done.stdout.count("\n") == 1 and
-                       all(word in done.stdout for word in [path.name, *words]),
-                       done.stdout[:300])
+        arguments.append(["--translate" if "needs a deck" in words else "--validate", str(path)])
+    for number, end in enumerate(run_many(arguments)):
+        runner.require(f"wrong deck {number}", end.status == 2 and end.lines == 1 and all(
+            word in end.message for word in [f"wrong-{number}.inp", *WRONG[number][2]]),
+            end.message[:300])
 
 
 def check_node_numbers(runner, output):

@@ -12,17 +12,19 @@ import csv
 import json
 import pathlib
 import shlex
-import subprocess
 import sys
 import tempfile
 
 import compare
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "contrib/lib"))
+
+from runs import execute_in_common  # noqa: E402
+
 ENTRIES = ["Task=state", "Accuracy/Target=", "Solver/Report linear reference=true"]
 GIVEN = ("scene", "entries")
 LEAST = 2
-SECONDS = 120
 
 
 def read(path):
@@ -47,10 +49,9 @@ def run(program, row, directory):
     command = [program, str(ROOT / row["scene"]), "--output", str(directory)]
     for entry in ENTRIES + list(filter(None, row["entries"].split("; "))):
         command += ["--set", entry]
-    done = subprocess.run(command, text=True, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, timeout=SECONDS, check=False)
-    if done.returncode:
-        return {}, f"status {done.returncode}: {done.stderr.strip()}"
+    status, _, said, *_ = execute_in_common(command)
+    if status:
+        return {}, f"status {status}: {said.strip()}"
     return counts(json.loads((directory / "summary.json").read_text(encoding="utf-8"))), None
 
 

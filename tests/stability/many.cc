@@ -24,7 +24,7 @@ const char usage[] =
   "on one rank each in a process of its own that may take so much CPU time and address space,\n"
   "on several ranks one after the other. Starts of the program take longer than most scenes.\n"
   "Prints a line each: the exit status, or less the number of the signal, the seconds of CPU\n"
-  "time, how many lines it said on standard error, and the last of them.\n";
+  "time, how many lines all ranks said on standard error, and the last of them.\n";
 
 struct Limits
 {
@@ -88,6 +88,15 @@ Ending end_of_child(const std::vector<std::string> &words, const Limits &limits)
   return ending;
 }
 
+/// Return what all ranks said, one after the other, on rank 0.
+std::string gathered(const std::string &said)
+{
+  std::string all;
+  for (const auto &of_rank : dealii::Utilities::MPI::gather(MPI_COMM_WORLD, said))
+    all += of_rank;
+  return all;
+}
+
 /// Run here, on all ranks; the time is that of this one.
 Ending end_of_run(const std::vector<std::string> &words)
 {
@@ -101,7 +110,7 @@ Ending end_of_run(const std::vector<std::string> &words)
   std::cerr.rdbuf(err);
   std::cout.rdbuf(out);
   ending.seconds = cpu_seconds(after) - cpu_seconds(before);
-  ending.said    = said.str();
+  ending.said    = gathered(said.str());
   return ending;
 }
 

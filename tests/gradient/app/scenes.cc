@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 #include <tuple>
@@ -79,15 +80,19 @@ void coarsen(scene::Scene &scene)
     scene.load_cases.resize(most_load_cases);
 }
 
+/// Larger elements of CAD files, which are meshed when the scene is read.
+const std::map<std::string, std::vector<std::string>> coarse_elements = {
+  {"step-roller", {"Body rim/Element size=12", "Body rim/Face sizes=tread: 6"}}};
+
 scene::Scene coarse_scene(const Case &given)
 {
+  const auto name  = std::filesystem::path(given.file).stem().string();
+  const auto sizes = coarse_elements.find(name);
   const auto ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  auto       scene = scene::read_scene({given.file,
-                                        contents(given.file),
-                                        {},
-                                        "gradient.app.np" + std::to_string(ranks) + "/" +
-                                          std::filesystem::path(given.file).stem().string(),
-                                        contents});
+  auto       scene =
+    scene::read_scene({given.file, contents(given.file),
+                       sizes == coarse_elements.end() ? std::vector<std::string>() : sizes->second,
+                       "gradient.app.np" + std::to_string(ranks) + "/" + name, contents});
   coarsen(scene);
   // those of degree 2 are slender: round-off does not let them reach 1e-11
   scene.state_tolerance = scene.degree == 1 ? 1e-11 : 1e-10;

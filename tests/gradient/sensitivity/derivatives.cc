@@ -127,7 +127,7 @@ TestScene<dim> obstacle_scene(const std::string &shape)
   return scene;
 }
 
-TEST(Gradient, ObstaclesAndGapFormulas)
+TEST(Gradient, ObstaclesAndGapFormulas2D)
 {
   for (const std::string shape : {"sphere", "formula"})
     {
@@ -135,6 +135,10 @@ TEST(Gradient, ObstaclesAndGapFormulas)
       GradientScene<2> scene(obstacle_scene<2>(shape), 0.05);
       check_derivatives(scene);
     }
+}
+
+TEST(Gradient, ObstaclesAndGapFormulas3D)
+{
   GradientScene<3> scene(obstacle_scene<3>("cylinder"), 0.05);
   check_derivatives(scene);
 }
@@ -215,7 +219,7 @@ TestScene<dim> mortar_scene(unsigned int n_punch, unsigned int n_foundation)
   return scene;
 }
 
-TEST(Gradient, Mortar)
+TEST(Gradient, Mortar2D)
 {
   for (const unsigned int degree : {1, 2})
     {
@@ -224,6 +228,10 @@ TEST(Gradient, Mortar)
       GradientScene<2> scene(given, 0.05);
       check_derivatives(scene);
     }
+}
+
+TEST(Gradient, Mortar3D)
+{
   GradientScene<3> scene(mortar_scene<3>(3, 4), 0.05);
   check_derivatives(scene);
 }

@@ -136,9 +136,13 @@ TestScene<dim> with_bound(TestScene<dim> scene, const std::string &bound)
   return scene;
 }
 
-TEST(FrictionGradient, Bound)
+TEST(FrictionGradient, Bound2D)
 {
   check(with_bound(pushed_punch<2>(12, contact::Method::nodal), "2+3*x"));
+}
+
+TEST(FrictionGradient, Bound3D)
+{
   auto scene            = with_bound(pushed_punch<3>(5, contact::Method::mortar), "1+2*x");
   scene.bodies[0].cells = {4, 4, 4};
   check(scene);

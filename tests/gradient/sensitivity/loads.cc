@@ -19,7 +19,7 @@ TestScene<dim> springs_on_the_bent_face(unsigned int n_cells, unsigned int n_hei
   return scene;
 }
 
-TEST(Gradient, Springs)
+TEST(Gradient, Springs2D)
 {
   for (const unsigned int degree : {1, 2})
     {
@@ -30,6 +30,10 @@ TEST(Gradient, Springs)
       check_derivatives(scene);
       check_shape_gradients(scene);
     }
+}
+
+TEST(Gradient, Springs3D)
+{
   GradientScene<3> scene(springs_on_the_bent_face<3>(3, 3), 0.05, "foundation.right", 0);
   check_derivatives(scene);
 }
@@ -44,7 +48,7 @@ void heat(TestScene<dim> &scene)
   };
 }
 
-TEST(Gradient, Temperature)
+TEST(Gradient, Temperature2D)
 {
   using Kind = mesh::Idealization::Kind;
   for (const auto kind : {Kind::plane_strain, Kind::plane_stress, Kind::axisymmetric})
@@ -60,6 +64,10 @@ TEST(Gradient, Temperature)
       if (kind != Kind::axisymmetric)
         check_shape_gradients(scene);
     }
+}
+
+TEST(Gradient, Temperature3D)
+{
   auto given = curved_scene<3>(3, 3, 0.04);
   heat(given);
   given.bodies[1].refined_below = 0.45;
@@ -67,7 +75,7 @@ TEST(Gradient, Temperature)
   check_derivatives(scene);
 }
 
-TEST(Gradient, ForcesAtPointsAndAlongLines)
+TEST(Gradient, ForcesAtPointsAndAlongLines3D)
 {
   auto  given                                     = curved_scene<3>(3, 3, 0.04);
   auto &foundation                                = given.bodies[1];

@@ -150,7 +150,7 @@ TEST(EnergyEstimate, SeesNearlyIncompressibleCells)
   if (!is_alone())
     return;
   for (const unsigned int degree : {1, 2})
-    for (const double nu : {0.3, 0.49, 0.499, 0.4999})
+    for (const double nu : {0.3, 0.49, 0.4999})
       {
         const double error = stress_error(nearly_incompressible<2>(8, nu, degree, 1e-9), 4);
         for (const double tolerance : {1e-9, 1e-2})

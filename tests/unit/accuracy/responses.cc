@@ -121,26 +121,28 @@ TEST(ResponseEstimate, SeesNearlyIncompressibleCells)
   const std::vector<response::ResponseParameters> responses = {named("potential energy"),
                                                                named("strain energy"),
                                                                named("peak pressure")};
-  for (const unsigned int degree : {1, 2})
-    for (const double nu : {0.49, 0.499, 0.4999})
-      {
-        const auto scene = nearly_incompressible<2>(8, nu, degree, 1e-9);
-        auto       loose = scene, fine = nearly_incompressible<2>(32, nu, 2, 1e-9);
-        loose.solver.relative_tolerance = 1e-2;
-        const auto there                = found(fine, responses, false);
-        const auto here = found(scene, responses), loosely = found(loose, responses);
-        for (unsigned int j = 0; j < responses.size(); ++j)
-          {
-            const auto what = responses[j].name + ", nu " + std::to_string(nu);
-            for (const auto *one : {&here, &loosely})
-              {
-                const double ratio =
-                  one->estimates[j].error() / std::abs(there.values[j] - here.values[j]);
-                EXPECT_GT(ratio, 0.8) << what << ", degree " << degree;
-                EXPECT_LT(ratio, 3.) << what << ", degree " << degree;
-              }
-          }
-      }
+  for (const double nu : {0.49, 0.499, 0.4999})
+    {
+      const auto there = found(nearly_incompressible<2>(32, nu, 2, 1e-9), responses, false);
+      for (const unsigned int degree : {1, 2})
+        {
+          const auto scene                = nearly_incompressible<2>(8, nu, degree, 1e-9);
+          auto       loose                = scene;
+          loose.solver.relative_tolerance = 1e-2;
+          const auto here = found(scene, responses), loosely = found(loose, responses);
+          for (unsigned int j = 0; j < responses.size(); ++j)
+            {
+              const auto what = responses[j].name + ", nu " + std::to_string(nu);
+              for (const auto *one : {&here, &loosely})
+                {
+                  const double ratio =
+                    one->estimates[j].error() / std::abs(there.values[j] - here.values[j]);
+                  EXPECT_GT(ratio, 0.8) << what << ", degree " << degree;
+                  EXPECT_LT(ratio, 3.) << what << ", degree " << degree;
+                }
+            }
+        }
+    }
 }
 
 /// Where energy and gap residual nearly cancel, E is up to several times the error.
@@ -151,7 +153,7 @@ TEST(ResponseEstimate, IsNotBelowTheErrorOfContactThatEnds)
   const std::vector<response::ResponseParameters> responses = {named("potential energy"),
                                                                named("contact force"),
                                                                named("peak pressure")};
-  for (const unsigned int n : {16, 24, 32})
+  for (const unsigned int n : {16, 24})
     for (const double found : effectivities(pushed<2>(n), 4, responses))
       EXPECT_GT(found, 0.8) << n;
   for (const double found : effectivities(pushed<3>(6), 2, responses))

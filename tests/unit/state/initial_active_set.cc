@@ -58,7 +58,8 @@ template <int dim>
 void expect_near_contacts()
 {
   // From a few rows in contact to half of them.
-  for (const double pressure : {0.3, 3., 30.})
+  for (const double pressure :
+       dim == 2 ? std::vector<double>{0.3, 3., 30.} : std::vector<double>{0.3, 30.})
     {
       test::Problem<dim> problem(pressed<dim>(pressure));
       const auto         state    = problem.solve();
