@@ -45,12 +45,15 @@ std::vector<std::string> columns(const ShapeProblem<dim> &problem, const scene::
 }
 
 /// Return the name of the constraint that the @p values of an infeasible design violate most. If
-/// they violate none, the design violates limits of its shape.
+/// they violate none, the design violates a limit of its shape, whose entry is returned.
 template <int dim>
-std::string violated(const Evaluator<dim> &evaluator, const std::vector<double> &values)
+std::string violated(const Evaluator<dim>      &evaluator,
+                     const ShapeProblem<dim>   &problem,
+                     const std::vector<double> &values,
+                     const std::vector<double> &design)
 {
   const auto name = evaluator.most_violated(values).second;
-  return name.empty() ? "limits of the shape" : name;
+  return name.empty() ? problem.shapes->most_violated_limit(design) : name;
 }
 } // namespace
 
@@ -126,7 +129,7 @@ void Search<dim>::report(const Iteration &iteration, const OptimizationResult &b
   line.design               = iteration.x;
   line.values               = iteration.evaluation.reported;
   if (line.constraint_violation > problem.scene.optimization.constraint_tolerance)
-    line.violated = violated(evaluator, line.values);
+    line.violated = violated(evaluator, problem, line.values, iteration.x);
   log(io::log_line(line));
   throw_collectively(problem.context.communicator(), [&]() {
     if (problem.context.rank() == 0)
@@ -171,8 +174,8 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
     warn_of_weak_contacts(x);
   };
   std::vector<optimization::LinearLimit> limits;
-  for (const auto &[row, bound] : problem.shapes->limits())
-    limits.push_back({row, bound});
+  for (const auto &limit : problem.shapes->limits())
+    limits.push_back({limit.row, limit.bound});
   design_problem = optimization::with_limits(std::move(design_problem), limits);
   optimization::Hooks hooks;
   hooks.on_iteration = [&](const Iteration &i) { report(i, before); };
@@ -192,7 +195,7 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
   };
   auto result = optimization::minimize_from_starts(journaled, parameters, hooks);
   if (result.constraint_violation > parameters.constraint_tolerance)
-    result.violated = violated(evaluator, result.evaluation.reported);
+    result.violated = violated(evaluator, problem, result.evaluation.reported, result.x);
   result.iterations += before.iterations;
   result.evaluations += before.evaluations;
   if (before.evaluations > 0)

@@ -97,7 +97,7 @@ std::vector<ControlLimit> slope_limits(const SplineNet       &net,
   std::vector<ControlLimit> result;
   for (const auto &row : net.derivative(axis, 1))
     for (const double side : {-1., 1.})
-      result.push_back({scaled(row, side / length), parameters.maximum_slope});
+      result.push_back({scaled(row, side / length), parameters.maximum_slope, "Maximum slope"});
   return result;
 }
 
@@ -120,8 +120,9 @@ std::vector<ControlLimit> curvature_limits(const SplineNet       &net,
           lower = std::min(lower, net.greville(point)[axis]);
           upper = std::max(upper, net.greville(point)[axis]);
         }
-      result.push_back(
-        {scaled(row, sign / (length * length)), allowed + curvature.minimum(lower, upper)});
+      result.push_back({scaled(row, sign / (length * length)),
+                        allowed + curvature.minimum(lower, upper),
+                        parameters.convex ? "Convex" : "Minimum tool radius"});
     }
   return result;
 }
@@ -138,7 +139,7 @@ std::vector<ControlLimit> removal_limits(const ShapedFace<dim>                 &
     return result;
   const double sign = outward_sign(face, directions, parameters, "Only remove", "true");
   for (unsigned int i = 0; i < n; ++i)
-    result.push_back({{{i, sign}}, 0.});
+    result.push_back({{{i, sign}}, 0., "Only remove"});
   return result;
 }
 

@@ -46,7 +46,7 @@ Shapes<dim>::Shapes(const mesh::BodyMesh<dim>          &mesh,
       add_limits(parts.back(), one);
     }
   for (auto &limit : all_limits)
-    limit.first.resize(lower.size(), 0.);
+    limit.row.resize(lower.size(), 0.);
 }
 
 template <int dim>
@@ -124,7 +124,7 @@ void Shapes<dim>::add_limits(const Part &part, const ShapeParameters &parameters
         else
           row[i] = 0.;
       if (moved.size() > 1 && known.insert({row, limit.bound}).second)
-        all_limits.emplace_back(row, limit.bound);
+        all_limits.push_back({row, limit.bound, parameters.path(limit.entry)});
       if (moved.size() != 1)
         continue;
       const unsigned int i     = moved.front();
@@ -136,6 +136,28 @@ void Shapes<dim>::add_limits(const Part &part, const ShapeParameters &parameters
                         "and 'Initial' must agree with the limits of the shape, which leave " +
                           to_text(std::vector<double>{lower[i], upper[i]}) + " for a variable");
     }
+}
+
+template <int dim>
+std::string Shapes<dim>::most_violated_limit(const std::vector<double> &alpha) const
+{
+  std::string entry;
+  double      most = 0.;
+  for (const auto &limit : all_limits)
+    {
+      double largest = 0., excess = -limit.bound;
+      for (unsigned int i = 0; i < alpha.size(); ++i)
+        {
+          excess += limit.row[i] * alpha[i];
+          largest = std::max(largest, std::abs(limit.row[i]));
+        }
+      if (excess > most * largest)
+        {
+          most  = excess / largest;
+          entry = limit.entry;
+        }
+    }
+  return entry;
 }
 
 template <int dim>

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct ControlLimit
 {
   std::map<unsigned int, double> row;
   double                         bound;
+  std::string                    entry; ///< that sets the limit, such as "Maximum slope"
 };
 
 /**

@@ -50,9 +50,20 @@ public:
   const std::vector<double> &start() const { return initial; }
   /// @}
 
-  /// Return the limits row . alpha <= bound of several variables. Limits of single variables are
-  /// bounds.
-  const std::vector<std::pair<std::vector<double>, double>> &limits() const { return all_limits; }
+  /// The limit row . alpha <= bound of several variables.
+  struct Limit
+  {
+    std::vector<double> row;
+    double              bound;
+    std::string         entry; ///< that sets the limit, such as "Shape/Maximum slope"
+  };
+
+  /// Return the limits of several variables. Limits of single variables are bounds.
+  const std::vector<Limit> &limits() const { return all_limits; }
+
+  /// Return the entry of the limit that @p alpha violates most, relative to the largest weight of
+  /// the limit; empty if it violates none.
+  std::string most_violated_limit(const std::vector<double> &alpha) const;
 
   /**
    * Return, for each variable, the change in the first step of a search. The change moves no node
@@ -81,10 +92,10 @@ private:
   void                       add_variables(const ShapeParameters &parameters, unsigned int n);
   void                       add_limits(const Part &part, const ShapeParameters &parameters);
 
-  const mesh::BodyMesh<dim>                          &mesh;
-  std::vector<Part>                                   parts;
-  std::vector<double>                                 lower, upper, initial;
-  std::vector<std::pair<std::vector<double>, double>> all_limits;
+  const mesh::BodyMesh<dim> &mesh;
+  std::vector<Part>          parts;
+  std::vector<double>        lower, upper, initial;
+  std::vector<Limit>         all_limits;
 };
 } // namespace snug::shape
 

@@ -80,11 +80,11 @@ shape::ShapeParameters top_patch(std::vector<unsigned int> points)
   return parameters;
 }
 
-double excess(const std::pair<std::vector<double>, double> &limit, const std::vector<double> &x)
+double excess(const shape::Shapes<2>::Limit &limit, const std::vector<double> &x)
 {
-  double sum = -limit.second;
+  double sum = -limit.bound;
   for (unsigned int i = 0; i < x.size(); ++i)
-    sum += limit.first[i] * x[i];
+    sum += limit.row[i] * x[i];
   return sum;
 }
 
@@ -110,9 +110,11 @@ TEST(Limits, OfSlopesAreExactForTilts)
     tilt.push_back(0.1 * greville);
   EXPECT_EQ(shapes.limits().size(), 8u);
   EXPECT_NEAR(largest_excess(shapes, tilt), 0.01, 1e-12);
+  EXPECT_EQ(shapes.most_violated_limit(tilt), "Shape/Maximum slope");
   for (double &height : tilt)
     height *= -0.7;
   EXPECT_NEAR(largest_excess(shapes, tilt), -0.005, 1e-12);
+  EXPECT_EQ(shapes.most_violated_limit(tilt), "");
 }
 
 /// On a face of the radius R = 3, a move whose second derivative is k in all control points changes
