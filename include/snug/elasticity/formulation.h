@@ -15,7 +15,8 @@ inline Names names(Formulation)
   return {{"standard",
            "volumetric strain of the displacements; locks at Poisson's ratios near 0.5"},
           {"B-bar",
-           "mean volumetric strain of each cell (for degree 2: a linear function); does not lock"}};
+           "mean volumetric strain of each cell (for degree 2: a linear function); does not lock, "
+           "except on quadratic tetrahedra"}};
 }
 } // namespace snug::elasticity
 
