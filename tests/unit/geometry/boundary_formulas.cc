@@ -85,7 +85,7 @@ TEST(BoundaryFormulas, WhatCutsFacesIsNamed)
   EXPECT_EQ(failure({{"a", "top & x < 11"}, {"b", "bottom & x > 11.25"}}), "");
   const auto cut = failure({{"a", "top & x < 11.1"}});
   EXPECT_NE(cut.find("cuts 4 faces, the first at (11.1 "), std::string::npos) << cut;
-  EXPECT_NE(cut.find("cells of the size 0.05 would fit"), std::string::npos) << cut;
+  EXPECT_NE(cut.find("cells of the size 0.05 have nodes there"), std::string::npos) << cut;
   EXPECT_NE(failure({{"a", "top & x < 10"}}).find("positive on a face"), std::string::npos);
   EXPECT_NE(failure({{"a", "lid & x < 11"}}).find("left, right"), std::string::npos);
   EXPECT_NE(failure({{"a", "x < 11"}}).find("boundary & FORMULA"), std::string::npos);
