@@ -9,9 +9,6 @@ namespace snug::app {
 namespace {
 using optimization::OptimizationResult;
 
-/// Drifts of round-off alone, with which a new contact search would give the same state.
-const double no_drift = 1e-12;
-
 /// Relative changes of the objective and relative violations of constraints from which on a new
 /// contact search is said to matter.
 const double most_change = 1e-3, most_violation = 1e-6;

@@ -17,9 +17,6 @@ namespace {
 /// Moves of slave nodes off their pairing below this value, in faces, need no new contact search.
 const double unmoved = 1e-3;
 
-/// Moves of round-off alone, in faces.
-const double no_drift = 1e-12;
-
 /// Return everything that decides the numbers of a run: the scene without the output directory and
 /// the maximum of evaluations, and the contents of mesh files instead of their paths.
 std::string fingerprint(scene::Scene scene)

@@ -55,7 +55,7 @@ std::vector<double> rigidly_closed_gaps(const LoadedProblem &problem)
 }
 
 /// Fraction of the loads that a set may leave unbalanced.
-const double balance_tolerance = 1e-8;
+const double start_balance_tolerance = 1e-8;
 
 /// Maximum number of changes of the set, after which the set is taken as it is.
 const unsigned int most_changes = 20;
@@ -74,7 +74,7 @@ qp::RowSet rigid_contact_rows(const LoadedProblem &problem, const qp::RowSet &ro
     {
       const auto      set = problem.free_set(result);
       qp::MultiVector lambda(problem.n_owned());
-      if (set->make_feasible(lambda, problem.e())[0] > balance_tolerance * size)
+      if (set->make_feasible(lambda, problem.e())[0] > start_balance_tolerance * size)
         return rows;
       const auto rates   = problem.apply_Gt(set->amplitudes(lambda));
       double     largest = 0.;

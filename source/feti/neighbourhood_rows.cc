@@ -11,13 +11,13 @@ namespace {
 /// Shift relative to the maximum diagonal entry of G_L G_L'. It does not affect motions that G_L
 /// resists. It makes the matrix definite for motions that G_L does not resist, as hinges between
 /// parts of a neighbourhood.
-const double shift = 1e-10;
+const double gram_shift = 1e-10;
 
 /// A vector is set to zero if equilibrium leaves less than this part: the rest is rounding error.
 const double rounding = 1e-6;
 
-/// Each pass multiplies a component of G_L c by shift / (s + shift), where s is the eigenvalue of
-/// G_L G_L' of this component, relative to the maximum diagonal entry.
+/// Each pass multiplies a component of G_L c by gram_shift / (s + gram_shift), where s is the
+/// eigenvalue of G_L G_L' of this component, relative to the maximum diagonal entry.
 const unsigned int balancing_passes = 3;
 
 double norm(const std::vector<double> &c)
@@ -86,7 +86,7 @@ void NeighbourhoodRows::factorize()
   for (unsigned int i = 0; i < n; ++i)
     largest = std::max(largest, gram(i, i));
   for (unsigned int i = 0; i < n; ++i)
-    gram(i, i) += shift * largest;
+    gram(i, i) += gram_shift * largest;
   gram.set_property(dealii::LAPACKSupport::symmetric);
   gram.compute_cholesky_factorization();
 }

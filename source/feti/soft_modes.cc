@@ -29,7 +29,7 @@ const unsigned int block = 8;
 const unsigned int usual_steps = 3;
 
 /// Pivots below this value mark columns of the Krylov space as linearly dependent on the others.
-const double dependence = 1e-8;
+const double mode_dependence = 1e-8;
 
 using Entries = std::vector<JumpStiffness>;
 
@@ -151,7 +151,8 @@ unsigned int count_above(const std::vector<double> &descending, const double lea
 
 qp::MultiVector independent(const qp::MultiVector &gram)
 {
-  return qp::orthonormal_combinations(gram, std::vector<double>(gram.n_columns(), 0.), dependence);
+  return qp::orthonormal_combinations(gram, std::vector<double>(gram.n_columns(), 0.),
+                                      mode_dependence);
 }
 
 /// An entry P_ji of the columns of subdomain s at a neighbour t, where j is an unknown of t and i

@@ -19,7 +19,7 @@ constexpr double no_gain = 1e-15;
 constexpr double smallest_radius = 1e-10;
 
 /// Number of failed evaluations without a gain in between after which the search ends.
-constexpr unsigned int max_failures = 5;
+constexpr unsigned int max_failed_evaluations = 5;
 
 /// Weight of a constraint over its multiplier, the part of a weight that remains in a step, and the
 /// minimum weight.
@@ -63,7 +63,7 @@ StopReason TrustRegion::run()
         return StopReason::evaluations;
       if (!evaluated(trial))
         {
-          if (++n_failures > max_failures)
+          if (++n_failures > max_failed_evaluations)
             return StopReason::no_value;
         }
       else if (const StopReason end =

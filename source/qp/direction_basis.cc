@@ -8,7 +8,7 @@
 namespace snug::qp {
 namespace {
 /// Singular values below this part of the longest column are rounding errors.
-const double rounding = 1e-12;
+const double null_rounding = 1e-12;
 
 /// Return whether row @p row of x has a nonzero entry. Only exact zeros count as zero: a row that
 /// no direction has ever touched puts no condition on combinations.
@@ -64,7 +64,7 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
   // The cut is relative to these rows, because all of them may be small compared with other rows.
   const auto        lengths = norms(on_rows, MPI_COMM_SELF);
   const MultiVector N =
-    null_space(on_rows, rounding * *std::max_element(lengths.begin(), lengths.end()));
+    null_space(on_rows, null_rounding * *std::max_element(lengths.begin(), lengths.end()));
   DirectionBasis result = {times(P, N), times(FP, N), unit};
   // Rounding errors on these rows would be forces on rows outside the face, which must be zero.
   for (unsigned int j = 0; j < result.P.n_columns(); ++j)

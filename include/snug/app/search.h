@@ -8,6 +8,10 @@
 #include <snug/optimization/journal.h>
 
 namespace snug::app {
+/// Moves of slave nodes by round-off alone, in faces, with which a new contact search would give
+/// the same state.
+constexpr double no_drift = 1e-12;
+
 /// The journal and the history that the searches of a run write, one after the other.
 template <int dim>
 struct SearchRecord

@@ -81,8 +81,8 @@ private:
 };
 
 template <int dim>
-double difference(const std::vector<dealii::Tensor<1, dim>> &a,
-                  const std::vector<dealii::Tensor<1, dim>> &b)
+double field_difference(const std::vector<dealii::Tensor<1, dim>> &a,
+                        const std::vector<dealii::Tensor<1, dim>> &b)
 {
   double worst = 0.;
   for (unsigned int i = 0; i < a.size(); ++i)
@@ -97,9 +97,9 @@ void expect_uniform_pressure_passes(unsigned int degree)
   MortarBoxes<dim> scene(MortarBoxes<dim>::hanging_boxes(), degree);
   scene.rotate(some_rotation<dim>());
   const auto forces = scene.contact().areas(scene.positions);
-  EXPECT_LT(difference<dim>(scene.nodal_forces(forces),
-                            scene.consistent_forces(
-                              [](const dealii::Tensor<1, dim> &) { return 1.; })),
+  EXPECT_LT(field_difference<dim>(scene.nodal_forces(forces),
+                                  scene.consistent_forces(
+                                    [](const dealii::Tensor<1, dim> &) { return 1.; })),
             1e-13);
 }
 
@@ -127,9 +127,10 @@ TEST(MortarRows, LinearPressurePassesQuadraticFaces)
   std::vector<double> forces  = contact.areas(scene.positions);
   for (unsigned int i = 0; i < forces.size(); ++i)
     forces[i] *= linear_pressure(scene.positions[contact.places()[i].slave][0]);
-  EXPECT_LT(difference<3>(scene.nodal_forces(forces),
-                          scene.consistent_forces(
-                            [](const dealii::Tensor<1, 3> &x) { return linear_pressure(x[0]); })),
+  EXPECT_LT(field_difference<3>(scene.nodal_forces(forces),
+                                scene.consistent_forces([](const dealii::Tensor<1, 3> &x) {
+                                  return linear_pressure(x[0]);
+                                })),
             1e-13);
 }
 
@@ -219,7 +220,7 @@ TEST(MortarRows, HeldNodesGiveTheirMultipliersAway)
   EXPECT_EQ(scene.positions[contact.places()[shared[0].rows[0].first].slave][0], 0.25);
   const auto got    = scene.nodal_forces(contact.areas(scene.positions));
   const auto wanted = scene.consistent_forces([](const dealii::Tensor<1, 2> &) { return 1.; });
-  EXPECT_LT(difference<2>(got, wanted), 1e-14);
+  EXPECT_LT(field_difference<2>(got, wanted), 1e-14);
 }
 
 TEST(MortarRows, NormalsStayInSymmetryPlanes)

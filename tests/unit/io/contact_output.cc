@@ -200,7 +200,9 @@ TEST(ContactOutput, TableFollowsTheFaceInThePlane)
     {
       EXPECT_NEAR(std::stod(table[i][2]) - begin, std::stod(table[i][6]), 1e-14);
       if (i > 1)
-        EXPECT_GT(std::stod(table[i][6]), std::stod(table[i - 1][6]));
+        {
+          EXPECT_GT(std::stod(table[i][6]), std::stod(table[i - 1][6]));
+        }
     }
 }
 

@@ -61,11 +61,17 @@ TEST(Limits, OfDerivativesBoundThem)
         // Smooth ends have no slope, clamped ends the slope of their control point.
         const double left = (value(axis, points, 1e-7) - value(axis, points, 0.)) / 1e-7;
         if (ends.smooth[0])
-          EXPECT_NEAR(left, 0., 1e-4);
+          {
+            EXPECT_NEAR(left, 0., 1e-4);
+          }
         else if (!ends.closed && !ends.smooth[1])
-          EXPECT_NEAR(left, slopes.front(), 1e-4);
+          {
+            EXPECT_NEAR(left, slopes.front(), 1e-4);
+          }
         if (ends.closed)
-          EXPECT_NEAR(value(axis, points, 0.), value(axis, points, 1.), 1e-14);
+          {
+            EXPECT_NEAR(value(axis, points, 0.), value(axis, points, 1.), 1e-14);
+          }
       }
 }
 
