@@ -52,21 +52,18 @@ void Adaptation<dim>::add(const mesh::BodyMesh<dim>         &mesh,
       to.halve(body, n, places_in_file<dim>(scene.bodies[body].mesh, coarse, cells));
 }
 
-/// Return the refinement with all cells of the last mesh divided and all elements halved.
-/// Collective.
+/// Return the refinement with all cells of the last mesh divided and all elements halved, as far as
+/// the maximum level allows. Collective.
 template <int dim>
 Refinement Adaptation<dim>::refined_everywhere() const
 {
   Refinement  result = refined;
   const auto &mesh   = *solved->problem->mesh;
-  const auto  cells  = mesh::all_cells(mesh);
+  add(mesh, refined, mesh::all_cells(mesh), result, false);
   for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-    if (scene.bodies[b].mesh.source == geometry::Source::cad)
-      result.halve(b, refined.n_halvings(b), {});
-  for (const auto &cell : cells)
-    if (const auto body = mesh.coarse_cells().body(cell);
-        scene.bodies[body].mesh.source != geometry::Source::cad)
-      result.divide(body, mesh.coarse_cells().in_body(cell));
+    if (const auto n = refined.n_halvings(b);
+        scene.bodies[b].mesh.source == geometry::Source::cad && n < scene.accuracy.maximum_levels)
+      result.halve(b, n, {});
   return result;
 }
 
