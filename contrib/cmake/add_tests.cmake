@@ -33,8 +33,8 @@ function(snug_add_unit_test module)
   if(SNUG_INSTRUMENT)
     set(timeout 1800)
   endif()
-  # Assertions cost time, so that each module runs once, on 2 ranks if it is collective. The tests
-  # of meshes are long, and run on 1 rank.
+  # The assertions of deal.II cost time, so that each module runs once, on 2 ranks if it is
+  # collective. The tests of meshes are long, and run on 1 rank.
   if(CMAKE_BUILD_TYPE STREQUAL "Debug" AND 3 IN_LIST ARG_RANKS)
     set(ARG_RANKS 2)
     if(module MATCHES "^(geometry|mesh|contact|shape|cad)$")
@@ -78,14 +78,29 @@ function(snug_add_regression_test name)
   endforeach()
 endfunction()
 
-# snug_add_script_test(name LABELS label... SCRIPT file.py [arguments]): a test
+# snug_add_script_test(name LABELS label... [SAMPLE n] [NIGHT] SCRIPT file.py [arguments]): a test
 # that is a Python program; it fails with its exit status. Runs of snug on one rank may share a
-# start of stability.many.
+# start of stability.many. With SAMPLE the test takes one of n cases (sample() in
+# contrib/lib/runs.py), and the test night.<name> takes all. NIGHT leaves out the test of the
+# sample. Tests of the night run with contrib/test --night only.
 function(snug_add_script_test name)
-  cmake_parse_arguments(ARG "" "" "LABELS;SCRIPT" ${ARGN})
+  cmake_parse_arguments(ARG "NIGHT" "SAMPLE" "LABELS;SCRIPT" ${ARGN})
   list(POP_FRONT ARG_SCRIPT script)
-  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} -B
-           ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARG_SCRIPT})
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 300
-    ENVIRONMENT "${SNUG_TEST_ENVIRONMENT};SNUG_MANY=$<TARGET_FILE:stability.many>")
+  set(command COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARG_SCRIPT})
+  set(environment ${SNUG_TEST_ENVIRONMENT} SNUG=$<TARGET_FILE:snug>
+      SNUG_MANY=$<TARGET_FILE:stability.many> SNUG_RANDOM=$<TARGET_FILE:random.problems>
+      MPIEXEC=${MPIEXEC_EXECUTABLE})
+  if(ARG_SAMPLE OR ARG_NIGHT)
+    add_test(NAME night.${name} CONFIGURATIONS night ${command})
+    set_tests_properties(night.${name} PROPERTIES LABELS "night;${ARG_LABELS}" TIMEOUT 3000
+                         ENVIRONMENT "${environment}")
+  endif()
+  if(NOT ARG_NIGHT)
+    if(ARG_SAMPLE)
+      list(APPEND environment SNUG_SAMPLE=${ARG_SAMPLE})
+    endif()
+    add_test(NAME ${name} ${command})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 300
+                         ENVIRONMENT "${environment}")
+  endif()
 endfunction()

@@ -283,6 +283,12 @@ def write_csv(path, rows):
     print(path)
 
 
+def sample(cases):
+    """Return a list of the cases, or one of every SNUG_SAMPLE of them if this variable of the
+    environment is set, as in tests that run for every change."""
+    return list(cases)[::int(os.environ.get("SNUG_SAMPLE", "1"))]
+
+
 def quick_and_words(document, allowed):
     """Return whether the arguments have --quick, and the other words; print the document and
     exit if one of these is not allowed(word)."""

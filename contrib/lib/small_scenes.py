@@ -9,7 +9,7 @@ import zlib
 import adapted_scenes
 import known_answers
 from measures import Below, Check, at, error, same, values
-from runs import print_head, print_row, solve
+from runs import print_head, print_row, sample, solve
 
 
 def guided_modulus(E, nu):
@@ -385,10 +385,10 @@ def text_of(value):
 
 
 def run():
-    """Print the table of all checks, and return what is wrong as lines."""
+    """Print the table of the checks, and return what is wrong as lines."""
     print_head("scene", "with", "quantity", "found", "answer", "error")
     failures = []
-    for check in CHECKS:
+    for check in sample(CHECKS):
         scene, given = f"tests/scenes/{check.scene}.prm", "; ".join(check.entries)
         beside = solve(scene, check.beside) if check.beside is not None else None
         for name, value, answer in check.measure(solve(scene, check.entries), beside):

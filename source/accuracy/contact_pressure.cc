@@ -1,4 +1,5 @@
 #include <snug/accuracy/contact_pressure.h>
+#include <snug/base/assertions.h>
 #include <snug/contact/nearest_face.h>
 #include <snug/contact/projection.h>
 #include <snug/faces/outer_edges.h>
@@ -89,7 +90,7 @@ ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>  &solver,
 {
   const auto &contact = solver.contact(load_case);
   const auto &surface = contact.placed_surface().surface();
-  AssertDimension(of_rows.size(), contact.n_rows());
+  SNUG_ASSERT_EQUAL(of_rows.size(), contact.n_rows());
   for (const auto &pair : contact.pairs())
     {
       for (const auto &boundary : pair.slave.boundaries())

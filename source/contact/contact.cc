@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/contact/contact.h>
 #include <snug/contact/mortar_rows.h>
 #include <snug/contact/pair_rows.h>
@@ -103,7 +104,7 @@ typename Contact<dim>::Group Contact<dim>::make_group(const PairGeometry<dim> &g
 template <int dim>
 std::vector<Row<dim>> Contact<dim>::rows(const Field &positions) const
 {
-  AssertDimension(positions.size(), surface.n_points());
+  SNUG_ASSERT_EQUAL(positions.size(), surface.n_points());
   const auto            in_space = placed.to_space(positions);
   std::vector<Row<dim>> result;
   for (const Group &group : groups)
@@ -123,8 +124,8 @@ template <int dim>
 std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
                                                     const Field &velocity) const
 {
-  AssertDimension(positions.size(), surface.n_points());
-  AssertDimension(velocity.size(), surface.n_points());
+  SNUG_ASSERT_EQUAL(positions.size(), surface.n_points());
+  SNUG_ASSERT_EQUAL(velocity.size(), surface.n_points());
   const auto            in_space = placed.to_space(positions), motion = placed.turned(velocity);
   std::vector<Row<dim>> result;
   for (const Group &group : groups)
@@ -161,9 +162,9 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
                                                            const Field              &displacement,
                                                            const ContactForces<dim> &forces) const
 {
-  AssertDimension(positions.size(), surface.n_points());
-  AssertDimension(displacement.size(), surface.n_nodes());
-  AssertDimension(forces.normal.size(), n_rows());
+  SNUG_ASSERT_EQUAL(positions.size(), surface.n_points());
+  SNUG_ASSERT_EQUAL(displacement.size(), surface.n_nodes());
+  SNUG_ASSERT_EQUAL(forces.normal.size(), n_rows());
   const auto in_space = placed.to_space(positions), moved = placed.turned(displacement);
   Field      gradient(surface.n_points()), of_offsets     = gradient;
   auto       slopes = energy_slopes(moved, forces.normal);
@@ -206,7 +207,7 @@ Contact<dim>::coefficient_gradient(const Field              &positions,
 template <int dim>
 std::vector<double> Contact<dim>::areas(const Field &positions) const
 {
-  AssertDimension(positions.size(), surface.n_points());
+  SNUG_ASSERT_EQUAL(positions.size(), surface.n_points());
   const auto          in_space = placed.to_space(positions);
   std::vector<double> result;
   for (const Group &group : groups)
@@ -235,8 +236,8 @@ template <int dim>
 typename Contact<dim>::Field Contact<dim>::area_gradient(const Field               &positions,
                                                          const std::vector<double> &factors) const
 {
-  AssertDimension(positions.size(), surface.n_points());
-  AssertDimension(factors.size(), n_rows());
+  SNUG_ASSERT_EQUAL(positions.size(), surface.n_points());
+  SNUG_ASSERT_EQUAL(factors.size(), n_rows());
   const auto in_space = placed.to_space(positions);
   Field      gradient(surface.n_points());
   auto       first = factors.begin();

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
 #include <snug/base/shared_work.h>
@@ -226,7 +227,7 @@ MortarRows<dim>::add_sum_derivatives(const Field                       &position
                                      Field                             &gradient,
                                      Field                             &normal_gradient) const
 {
-  AssertDimension(of_rows.size(), multipliers.nodes.size());
+  SNUG_ASSERT_EQUAL(of_rows.size(), multipliers.nodes.size());
   auto             sums = row_sums(Points<double>(positions));
   faces::Recording recording;
   for (unsigned int i = 0; i < sums.size(); ++i)
@@ -280,7 +281,7 @@ void MortarRows<dim>::add_area_gradient(const Field               &positions,
                                         const std::vector<double> &factors,
                                         Field                     &gradient) const
 {
-  AssertDimension(factors.size(), multipliers.nodes.size());
+  SNUG_ASSERT_EQUAL(factors.size(), multipliers.nodes.size());
   std::vector<RowSum<double>> slopes;
   for (unsigned int i = 0; i < factors.size(); ++i)
     {

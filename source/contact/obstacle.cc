@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/contact/level_set.h>
 #include <snug/contact/obstacle.h>
 
@@ -78,7 +79,7 @@ Choice<Make<dim>> round(const std::string &name, const std::string &meaning, boo
 template <int dim>
 dealii::Point<dim> to_point(const std::vector<double> &coordinates)
 {
-  AssertDimension(coordinates.size(), dim);
+  SNUG_ASSERT_EQUAL(coordinates.size(), dim);
   dealii::Point<dim> point;
   for (unsigned int c = 0; c < dim; ++c)
     point[c] = coordinates[c];

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/contact/contact.h>
 #include <snug/faces/nodal_normals.h>
@@ -180,7 +181,7 @@ void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirectio
 template <int dim>
 void Contact<dim>::make_groups(const Field &positions, const faces::HeldDirections<dim> &held)
 {
-  AssertDimension(held.size(), surface.n_nodes());
+  SNUG_ASSERT_EQUAL(held.size(), surface.n_nodes());
   groups.clear();
   for (unsigned int p = 0; p < chosen.size(); ++p)
     groups.push_back(make_group(geometry(p, positions, held)));

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/contact/row_derivatives.h>
 
 namespace snug::contact {
@@ -36,7 +37,7 @@ void add_slopes(const Row<dim, faces::Recorded> &row,
                 const RowSlopes<dim>            &slopes,
                 faces::Recording                &recording)
 {
-  AssertDimension(slopes.coefficients.size(), row.coefficients.size());
+  SNUG_ASSERT_EQUAL(slopes.coefficients.size(), row.coefficients.size());
   recording.add(row.gap, slopes.gap);
   for (unsigned int k = 0; k < row.coefficients.size(); ++k)
     recording.add(row.coefficients[k].second, slopes.coefficients[k]);

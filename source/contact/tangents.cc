@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/contact/contact.h>
 #include <snug/contact/row_derivatives.h>
@@ -182,7 +183,7 @@ template <int dim>
 ContactForces<dim> Contact<dim>::forces(const std::vector<Row<dim>> &rows,
                                         const std::vector<double>   &of_rows) const
 {
-  AssertDimension(of_rows.size(), n_rows() + tangent_places.size());
+  SNUG_ASSERT_EQUAL(of_rows.size(), n_rows() + tangent_places.size());
   ContactForces<dim> result{{of_rows.begin(), of_rows.begin() + n_rows()}};
   if (!has_friction())
     return result;
@@ -197,7 +198,7 @@ template <int dim>
 std::vector<Row<dim>> Contact<dim>::tangent_rows(const Field                 &positions,
                                                  const std::vector<Row<dim>> &rows) const
 {
-  AssertDimension(rows.size(), n_rows());
+  SNUG_ASSERT_EQUAL(rows.size(), n_rows());
   const auto                           in_space = placed.to_space(positions);
   const faces::PointField<dim, double> x(in_space);
   std::vector<Row<dim>>                result;
@@ -213,8 +214,8 @@ Contact<dim>::tangent_row_derivatives(const Field                 &positions,
                                       const std::vector<Row<dim>> &rows,
                                       const std::vector<Row<dim>> &derivatives) const
 {
-  AssertDimension(rows.size(), n_rows());
-  AssertDimension(derivatives.size(), n_rows());
+  SNUG_ASSERT_EQUAL(rows.size(), n_rows());
+  SNUG_ASSERT_EQUAL(derivatives.size(), n_rows());
   const auto in_space = placed.to_space(positions), motion = placed.turned(velocity);
   const faces::PointField<dim, faces::Differential<1>> x(in_space, motion);
   std::vector<Row<dim>>                                result;
@@ -240,7 +241,7 @@ void Contact<dim>::add_tangential_slopes(const Field                            
                                          std::vector<RowSlopes<dim>>               &slopes,
                                          Field                                     &gradient) const
 {
-  AssertDimension(forces.size(), n_rows());
+  SNUG_ASSERT_EQUAL(forces.size(), n_rows());
   const auto       in_space = placed.to_space(positions);
   const auto       values   = rows(positions);
   faces::Recording recording;

@@ -1,13 +1,13 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/cell_point.h>
 
-#include <deal.II/base/exceptions.h>
 
 namespace snug::elasticity {
 template <int dim>
 dealii::Tensor<2, dim> jacobian(const mesh::LagrangePoint<dim>            &shape,
                                 const std::vector<dealii::Tensor<1, dim>> &X)
 {
-  AssertDimension(X.size(), shape.gradient.size());
+  SNUG_ASSERT_EQUAL(X.size(), shape.gradient.size());
   dealii::Tensor<2, dim> J;
   for (unsigned int a = 0; a < X.size(); ++a)
     for (unsigned int c = 0; c < dim; ++c)
@@ -20,7 +20,7 @@ template <int dim>
 dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
                              const std::vector<dealii::Tensor<1, dim>> &u)
 {
-  AssertDimension(u.size(), shape.value.size());
+  SNUG_ASSERT_EQUAL(u.size(), shape.value.size());
   dealii::Tensor<1, dim> result;
   for (unsigned int a = 0; a < u.size(); ++a)
     result += shape.value[a] * u[a];
@@ -72,7 +72,7 @@ CellPoint<dim>::CellPoint(const mesh::LagrangePoint<dim> &shape,
 template <int dim>
 dealii::Tensor<2, 3> CellPoint<dim>::gradient(const Nodes &u) const
 {
-  AssertDimension(u.size(), shape.value.size());
+  SNUG_ASSERT_EQUAL(u.size(), shape.value.size());
   dealii::Tensor<2, dim> sum;
   for (unsigned int a = 0; a < u.size(); ++a)
     sum += outer_product(u[a], gradients[a]);
@@ -91,7 +91,7 @@ dealii::Tensor<2, 3> CellPoint<dim>::gradient(const Nodes &u) const
 template <int dim>
 void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
 {
-  AssertDimension(f.size(), shape.value.size());
+  SNUG_ASSERT_EQUAL(f.size(), shape.value.size());
   dealii::Tensor<2, dim> in_plane;
   for (unsigned int c = 0; c < dim; ++c)
     for (unsigned int d = 0; d < dim; ++d)
@@ -109,7 +109,7 @@ void CellPoint<dim>::add_flux(const dealii::Tensor<2, 3> &flux, Nodes &f) const
 template <int dim>
 void CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source, Nodes &f) const
 {
-  AssertDimension(f.size(), shape.value.size());
+  SNUG_ASSERT_EQUAL(f.size(), shape.value.size());
   for (unsigned int a = 0; a < f.size(); ++a)
     f[a] += dV * shape.value[a] * source;
 }

@@ -1,8 +1,8 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/pressure_space.h>
 #include <snug/elasticity/stress.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +20,12 @@ Element<dim>::Element(const unsigned int        degree,
   , nodes(mesh::lagrange_nodes<dim>(degree))
 {
   using Kind = mesh::Idealization::Kind;
-  Assert(degree == 1 || degree == 2, dealii::ExcMessage("Elements have degree 1 or 2."));
-  Assert((idealization.kind == Kind::solid) == (dim == 3),
-         dealii::ExcMessage("Solids are 3D, sections 2D."));
+  SNUG_ASSERT(degree == 1 || degree == 2, "elements have degree 1 or 2");
+  SNUG_ASSERT((idealization.kind == Kind::solid) == (dim == 3), "solids are 3D, sections 2D");
   // The out-of-plane strain of a sheet follows from the in-plane strains, so there is no
   // dilatation to be projected.
-  Assert(formulation == Formulation::standard || idealization.kind != Kind::plane_stress,
-         dealii::ExcMessage("B-bar is not for plane stress."));
+  SNUG_ASSERT(formulation == Formulation::standard || idealization.kind != Kind::plane_stress,
+              "plane stress has no B-bar formulation");
   // Use a multiple of the tile size of StiffnessKernel. The zeros add nothing.
   const unsigned int n_padded = (n_nodes() + 3) / 4 * 4;
   for (const auto &shape : gauss)
@@ -120,7 +119,7 @@ typename Element<dim>::Nodes Element<dim>::quadrature_points(const Nodes &X) con
 template <int dim>
 void Element<dim>::body_force(const Nodes &X, const Nodes &b, Nodes &f) const
 {
-  AssertDimension(b.size(), gauss.size());
+  SNUG_ASSERT_EQUAL(b.size(), gauss.size());
   f.assign(n_nodes(), {});
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)

@@ -1,7 +1,7 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/stress.h>
 
-#include <deal.II/base/exceptions.h>
 
 namespace snug::elasticity {
 namespace {
@@ -91,7 +91,7 @@ void Element<dim>::body_force_derivative(const Nodes &X,
                                          const Nodes &b,
                                          Nodes       &f) const
 {
-  AssertDimension(b.size(), gauss.size());
+  SNUG_ASSERT_EQUAL(b.size(), gauss.size());
   f.assign(n_nodes(), {});
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)
@@ -106,7 +106,7 @@ void Element<dim>::add_body_force_gradient(const Nodes &X,
                                            const double factor,
                                            Nodes       &gradient) const
 {
-  AssertDimension(b.size(), gauss.size());
+  SNUG_ASSERT_EQUAL(b.size(), gauss.size());
   const auto points = gauss_points(X);
   for (unsigned int q = 0; q < points.size(); ++q)
     // The flux uses identity : grad V = div V.

@@ -1,7 +1,7 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/face_load.h>
 #include <snug/faces/face_shape.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <array>
 
@@ -12,7 +12,7 @@ template <int dim>
 std::array<dealii::Tensor<1, dim>, dim - 1> tangents(const mesh::LagrangePoint<dim - 1> &shape,
                                                      const std::vector<dealii::Tensor<1, dim>> &X)
 {
-  AssertDimension(X.size(), shape.value.size());
+  SNUG_ASSERT_EQUAL(X.size(), shape.value.size());
   std::array<dealii::Tensor<1, dim>, dim - 1> t;
   for (unsigned int a = 0; a < X.size(); ++a)
     for (unsigned int i = 0; i < dim - 1; ++i)
@@ -25,7 +25,7 @@ template <int dim>
 dealii::Tensor<1, dim> interpolate(const mesh::LagrangePoint<dim - 1>        &shape,
                                    const std::vector<dealii::Tensor<1, dim>> &x)
 {
-  AssertDimension(x.size(), shape.value.size());
+  SNUG_ASSERT_EQUAL(x.size(), shape.value.size());
   dealii::Tensor<1, dim> sum;
   for (unsigned int a = 0; a < x.size(); ++a)
     sum += shape.value[a] * x[a];
@@ -113,7 +113,7 @@ template <int dim>
 FaceLoad<dim>::FaceLoad(const unsigned int degree, const mesh::Idealization &idealization)
   : idealization(idealization), gauss(mesh::lagrange_gauss_points<dim - 1>(degree))
 {
-  Assert(degree == 1 || degree == 2, dealii::ExcMessage("Faces have degree 1 or 2."));
+  SNUG_ASSERT(degree == 1 || degree == 2, "faces have degree 1 or 2");
 }
 
 template <int dim>
@@ -184,8 +184,8 @@ void FaceLoad<dim>::add_force_gradient(const Nodes               &X,
                                        const double               factor,
                                        Nodes                     &gradient) const
 {
-  AssertDimension(u.size(), X.size());
-  AssertDimension(gradient.size(), X.size());
+  SNUG_ASSERT_EQUAL(u.size(), X.size());
+  SNUG_ASSERT_EQUAL(gradient.size(), X.size());
   for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const FacePoint<dim> point(gauss[q], idealization, X);

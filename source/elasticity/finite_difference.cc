@@ -1,6 +1,6 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/finite_difference.h>
 
-#include <deal.II/base/exceptions.h>
 
 namespace snug::elasticity {
 Stencil stencil(const Differences differences)
@@ -20,8 +20,8 @@ std::vector<dealii::Tensor<1, dim>> difference(const Stencil                    
                                                const std::vector<dealii::Tensor<1, dim>> &V,
                                                const double                               step)
 {
-  AssertDimension(X.size(), V.size());
-  Assert(step > 0., dealii::ExcMessage("The step must be positive."));
+  SNUG_ASSERT_EQUAL(X.size(), V.size());
+  SNUG_ASSERT(step > 0., "the step must be positive");
   std::vector<dealii::Tensor<1, dim>> at, values, sum;
   for (unsigned int k = 0; k < stencil.places.size(); ++k)
     {

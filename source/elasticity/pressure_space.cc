@@ -1,6 +1,6 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/pressure_space.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <cmath>
 
@@ -11,7 +11,7 @@ PressureSpace<dim>::PressureSpace(const unsigned int                     degree,
                                   const std::vector<double>             &dV)
   : dV(dV)
 {
-  AssertDimension(points.size(), dV.size());
+  SNUG_ASSERT_EQUAL(points.size(), dV.size());
   // Apply Gram-Schmidt to 1, xi_1 - 1/2, and so on. If the cell is not very distorted, these
   // functions are nearly orthogonal at the start, so one pass is enough.
   std::vector<std::vector<unsigned int>> axes = {{}}; // of the factors
@@ -57,8 +57,8 @@ void PressureSpace<dim>::project(std::vector<double> &values) const
 template <int dim>
 double PressureSpace<dim>::product(const std::vector<double> &f, const std::vector<double> &g) const
 {
-  AssertDimension(f.size(), dV.size());
-  AssertDimension(g.size(), dV.size());
+  SNUG_ASSERT_EQUAL(f.size(), dV.size());
+  SNUG_ASSERT_EQUAL(g.size(), dV.size());
   double sum = 0.;
   for (unsigned int q = 0; q < dV.size(); ++q)
     sum += f[q] * g[q] * dV[q];

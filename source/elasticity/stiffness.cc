@@ -1,8 +1,8 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/pressure_space.h>
 #include <snug/elasticity/stress.h>
 
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
@@ -242,8 +242,8 @@ void Element<dim>::compute_stiffness(const Nodes         &X,
 {
   // The kernel is on the stack, with sizes known to the compiler: about 0.1 MB for 27 nodes in 3D.
   using Kernel = StiffnessKernel<dim, degree, axisymmetric>;
-  AssertDimension(X.size(), Kernel::n);
-  AssertDimension(reference_gradients.size(), Kernel::n_gauss * dim * Kernel::n_padded);
+  SNUG_ASSERT_EQUAL(X.size(), Kernel::n);
+  SNUG_ASSERT_EQUAL(reference_gradients.size(), Kernel::n_gauss * dim * Kernel::n_padded);
   K.resize(Kernel::N * Kernel::N);
   const double mu = material.lame_mu();
   const double lambda =

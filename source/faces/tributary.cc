@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/faces/tributary.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -90,7 +91,7 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
                             const std::vector<double>                &factors,
                             typename mesh::Surface<dim>::Field       &gradient)
 {
-  AssertDimension(factors.size(), nodes.size());
+  SNUG_ASSERT_EQUAL(factors.size(), nodes.size());
   std::vector<double> of_nodes(of.surface.n_nodes(), 0.);
   for (unsigned int i = 0; i < nodes.size(); ++i)
     of_nodes[nodes[i]] = factors[i];

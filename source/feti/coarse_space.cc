@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/narrow.h>
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/couplings.h>
@@ -169,8 +170,8 @@ std::vector<double> CoarseSpace::combined_column(const qp::FrictionCone      &co
     for (unsigned int b = start[row]; factor != 0. && b < start[row + 1]; ++b)
       {
         const auto found = std::lower_bound(all + base, all + end, pattern.block_subdomain[b]);
-        Assert(found != all + end && *found == pattern.block_subdomain[b],
-                        dealii::ExcInternalError());
+        SNUG_ASSERT(found != all + end && *found == pattern.block_subdomain[b],
+                             "the blocks of a normal row are among those of its tangential rows");
         for (unsigned int i = 0; i < m; ++i)
           column[(found - all - base) * m + i] += factor * blocks[std::size_t(b) * m + i];
       }

@@ -1,23 +1,23 @@
+#include <snug/base/assertions.h>
 #include <snug/geometry/body_sources.h>
 #include <snug/geometry/boundary_formulas.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/placement.h>
 #include <snug/geometry/regions.h>
 
-#include <deal.II/base/exceptions.h>
 
 namespace snug::geometry {
 template <int dim>
 dealii::Point<dim> BodyGeometry<dim>::box_fraction(const dealii::Point<dim> &) const
 {
-  Assert(false, dealii::ExcMessage("no frame"));
+  SNUG_ASSERT(false, "the geometry has no frame");
   return {};
 }
 
 template <int dim>
 dealii::Point<dim> BodyGeometry<dim>::box_position(const dealii::Point<dim> &) const
 {
-  Assert(false, dealii::ExcMessage("no frame"));
+  SNUG_ASSERT(false, "the geometry has no frame");
   return {};
 }
 

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/values.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/rigid_motion.h>
@@ -49,7 +50,7 @@ RigidMotion<dim> rotation_about_axis(const std::vector<std::string> &words)
 template <int dim>
 dealii::Tensor<2, dim> rotation(const unsigned int axis, const double degrees)
 {
-  AssertIndexRange(axis, 3);
+  SNUG_ASSERT_BELOW(axis, 3);
   const double       turn  = std::remainder(degrees, 360.);
   const double       angle = turn * dealii::numbers::PI / 180.;
   const bool         right = std::remainder(turn, 90.) == 0.;

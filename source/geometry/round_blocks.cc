@@ -1,9 +1,9 @@
+#include <snug/base/assertions.h>
 #include <snug/geometry/block_geometry.h>
 #include <snug/geometry/body_sources.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/round_body.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <deal.II/grid/manifold_lib.h>
 
@@ -122,7 +122,8 @@ BlockMesh<2> disc_mesh(const BodyMeshParameters &parameters, unsigned int n_cell
     mirror(mesh, 1, "bottom");
   remove_unused_boundaries(mesh);
   set_outer(mesh, parameters.radius);
-  AssertThrow(order_consistently(mesh), dealii::ExcInternalError());
+  const bool is_ordered = order_consistently(mesh);
+  SNUG_ASSERT(is_ordered, "the blocks cannot be ordered consistently");
   return mesh;
 }
 
@@ -188,7 +189,8 @@ BlockMesh<3> sphere_mesh(const BodyMeshParameters &parameters)
   finish(mesh, parameters.radius);
   mirror_octant(mesh, parts);
   set_outer(mesh, parameters.radius);
-  AssertThrow(order_consistently(mesh), dealii::ExcInternalError());
+  const bool is_ordered = order_consistently(mesh);
+  SNUG_ASSERT(is_ordered, "the blocks cannot be ordered consistently");
   return mesh;
 }
 

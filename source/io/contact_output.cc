@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/faces/nodal_normals.h>
@@ -54,7 +55,7 @@ std::vector<state::ContactPoint> nodal_points(const Sources<dim>                
                                               const unsigned int                      p,
                                               const std::vector<state::ContactPoint> &rows)
 {
-  AssertDimension(rows.size(), sources.places.size());
+  SNUG_ASSERT_EQUAL(rows.size(), sources.places.size());
   std::vector<state::ContactPoint> points(sources.surface.n_nodes());
   std::vector<bool>                seen(points.size(), false);
   for (unsigned int i = 0; i < rows.size(); ++i)

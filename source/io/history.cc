@@ -1,7 +1,7 @@
+#include <snug/base/assertions.h>
 #include <snug/io/history.h>
 #include <snug/io/text_file.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <cstdio>
 
@@ -42,8 +42,8 @@ History::History(const std::string              &path,
 
 void History::add(const HistoryLine &line)
 {
-  AssertDimension(line.design.size(), n_variables);
-  AssertDimension(line.values.size(), n_values);
+  SNUG_ASSERT_EQUAL(line.design.size(), n_variables);
+  SNUG_ASSERT_EQUAL(line.values.size(), n_values);
   text += std::to_string(line.iteration) + ',' + std::to_string(line.evaluations) + ',' +
           exact(line.objective) + ',' + exact(line.constraint_violation) + ',' +
           exact(line.projected_gradient) + ',' + std::to_string(line.active_contacts) + ',' +

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/elasticity/element.h>
 #include <snug/io/nodal_stress.h>
 #include <snug/mesh/shared_nodes.h>
@@ -306,7 +307,7 @@ nodal_stress(const mesh::BodyMesh<dim>                 &mesh,
              const typename mesh::BodyMesh<dim>::Field &displacement,
              const std::vector<state::BodyLoads<dim>>  &loads)
 {
-  AssertDimension(bodies.size(), mesh.n_bodies());
+  SNUG_ASSERT_EQUAL(bodies.size(), mesh.n_bodies());
   const Solved<dim>  solved{mesh, bodies, loads, positions, displacement};
   auto               sums      = stress_sums(solved);
   const unsigned int n_regions = solved.n_regions;

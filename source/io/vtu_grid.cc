@@ -1,8 +1,8 @@
+#include <snug/base/assertions.h>
 #include <snug/base/narrow.h>
 #include <snug/io/vtu_grid.h>
 
 #include <deal.II/base/data_out_base.h>
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
 #include <zlib.h>
@@ -134,7 +134,7 @@ void VtuGrid<d, dim>::append(const std::vector<double> &values, std::vector<Arra
         array.values.push_back(static_cast<float>(values[c++]));
       array.values.insert(array.values.end(), array.n_written() - array.components, 0.f);
     }
-  AssertDimension(c, values.size());
+  SNUG_ASSERT_EQUAL(c, values.size());
 }
 
 template <int d, int dim>
@@ -152,7 +152,7 @@ void VtuGrid<d, dim>::add_cell(const std::vector<unsigned int> &points,
                                const std::vector<double>       &values)
 {
   const unsigned int n = std::lround(std::pow(points.size(), 1. / d)); // nodes per edge
-  AssertDimension(dealii::Utilities::fixed_power<d>(n), points.size());
+  SNUG_ASSERT_EQUAL(dealii::Utilities::fixed_power<d>(n), points.size());
   const unsigned int stride[3] = {1, n, n * n};
   for (unsigned int k = 0; k < (d > 2 ? n - 1 : 1); ++k)
     for (unsigned int j = 0; j < (d > 1 ? n - 1 : 1); ++j)

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/mesh/interior_faces.h>
 
 #include <deal.II/grid/tria.h>
@@ -54,7 +55,7 @@ unsigned int number_in(const Cell &cell, const unsigned int vertex)
   while (cell->vertex_index(v) != vertex)
     {
       ++v;
-      AssertIndexRange(v, cell->n_vertices());
+      SNUG_ASSERT_BELOW(v, cell->n_vertices());
     }
   return v;
 }

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/mesh/shared_nodes.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -8,7 +9,7 @@ void sum_at_shared_nodes(const mesh::BodyMesh<dim> &mesh,
                          unsigned int               n_components,
                          std::vector<double>       &values)
 {
-  AssertDimension(values.size(), std::size_t(n_components) * mesh.n_local_nodes());
+  SNUG_ASSERT_EQUAL(values.size(), std::size_t(n_components) * mesh.n_local_nodes());
   const MPI_Comm            comm = mesh.communicator();
   const unsigned int        rank = dealii::Utilities::MPI::this_mpi_process(comm);
   std::vector<unsigned int> own, all;

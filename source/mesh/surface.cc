@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/mesh/lagrange.h>
 #include <snug/mesh/surface.h>
 
@@ -172,8 +173,8 @@ void Surface<dim>::find_owned(const std::map<unsigned int, unsigned int> &index)
 template <int dim>
 typename Surface<dim>::Field Surface<dim>::gather(const mesh::Field<dim> &field) const
 {
-  Assert(field.size() == mesh.n_points() || field.size() == mesh.n_local_nodes(),
-         dealii::ExcDimensionMismatch(field.size(), mesh.n_points()));
+  SNUG_ASSERT(field.size() == mesh.n_points() || field.size() == mesh.n_local_nodes(),
+              "the field is one of points or of local nodes");
   // On a rank without samples both sizes are equal, so the ranks with samples decide.
   const bool with_samples =
     n_points() > n_nodes() &&
@@ -194,7 +195,7 @@ typename Surface<dim>::Field Surface<dim>::gather(const mesh::Field<dim> &field)
         result[position / dim][position % dim] = value;
         ++position;
       }
-  AssertDimension(position, dim * n_nodes());
+  SNUG_ASSERT_EQUAL(position, dim * n_nodes());
   if (with_samples)
     {
       // Each sample is on one rank, and the other ranks add zeros.

@@ -1,7 +1,7 @@
+#include <snug/base/assertions.h>
 #include <snug/optimization/dense_vectors.h>
 #include <snug/optimization/projected_gradient.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <cmath>
 #include <limits>
@@ -130,7 +130,7 @@ ProjectedGradient projected_gradient(const std::vector<double>      &g,
                                      std::vector<ConstraintGradient> constraint_gradients,
                                      const std::vector<BoundState>  &at_bounds)
 {
-  AssertDimension(g.size(), at_bounds.size());
+  SNUG_ASSERT_EQUAL(g.size(), at_bounds.size());
   ProjectedGradient         result{0., std::vector<double>(constraint_gradients.size(), 0.)};
   std::vector<unsigned int> numbers(constraint_gradients.size());
   std::iota(numbers.begin(), numbers.end(), 0U);

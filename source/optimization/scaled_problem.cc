@@ -1,8 +1,8 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/optimization/dense_vectors.h>
 #include <snug/optimization/scaled_problem.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ bool all_finite(const std::vector<double> &v)
 
 void check_bounds(const DesignProblem &problem)
 {
-  AssertDimension(problem.lower.size(), problem.start.size());
-  AssertDimension(problem.upper.size(), problem.start.size());
+  SNUG_ASSERT_EQUAL(problem.lower.size(), problem.start.size());
+  SNUG_ASSERT_EQUAL(problem.upper.size(), problem.start.size());
   for (unsigned int i = 0; i < problem.start.size(); ++i)
     {
       const double lower = problem.lower[i], upper = problem.upper[i];
@@ -62,12 +62,12 @@ void check_finite(const bool is_finite)
 void check_derivatives(const Evaluation &evaluation, const std::size_t n_variables)
 {
   (void)n_variables;
-  AssertDimension(evaluation.gradient.size(), n_variables);
-  AssertDimension(evaluation.jacobian.size(), evaluation.constraints.size());
+  SNUG_ASSERT_EQUAL(evaluation.gradient.size(), n_variables);
+  SNUG_ASSERT_EQUAL(evaluation.jacobian.size(), evaluation.constraints.size());
   check_finite(all_finite(evaluation.gradient));
   for (const auto &row : evaluation.jacobian)
     {
-      AssertDimension(row.size(), n_variables);
+      SNUG_ASSERT_EQUAL(row.size(), n_variables);
       check_finite(all_finite(row));
     }
 }
@@ -191,7 +191,7 @@ ScaledProblem::remembered(const std::shared_ptr<Point> &point)
   const auto c = constraints(point->evaluation);
   if (constraint_relations.empty()) // the first design
     constraint_relations.resize(c.size(), Relation::equal);
-  AssertDimension(constraint_relations.size(), c.size());
+  SNUG_ASSERT_EQUAL(constraint_relations.size(), c.size());
   for (unsigned int j = 0; j < c.size(); ++j)
     point->violation =
       std::max(point->violation, optimization::violation(constraint_relations[j], c[j]));
@@ -227,8 +227,7 @@ std::vector<std::vector<double>> ScaledProblem::jacobian(const Point &point) con
 std::vector<double> ScaledProblem::constraints(const Evaluation &evaluation) const
 {
   auto result = evaluation.constraints;
-  Assert(scales.empty() || scales.size() == result.size(),
-         dealii::ExcDimensionMismatch(scales.size(), result.size()));
+  SNUG_ASSERT(scales.empty() || scales.size() == result.size(), "each constraint has a scale");
   for (unsigned int j = 0; j < scales.size(); ++j)
     result[j] /= scales[j];
   return result;

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/narrow.h>
 #include <snug/qp/active_set.h>
 #include <snug/qp/friction_newton.h>
@@ -6,7 +7,6 @@
 #include <snug/qp/set_iteration.h>
 #include <snug/qp/smalse.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <limits>
@@ -80,9 +80,8 @@ void ActiveSetRun::begin(const WarmStart &from)
   const bool     is_warm = warm || has_set;
   mask                   = RowSet(problem.n_owned(), 1);
   lambda                 = warm ? from.lambda : MultiVector(problem.n_owned());
-  AssertDimension(lambda.n_rows(), problem.n_owned());
-  Assert(!has_set || from.active.size() == problem.n_owned(),
-         dealii::ExcDimensionMismatch(from.active.size(), problem.n_owned()));
+  SNUG_ASSERT_EQUAL(lambda.n_rows(), problem.n_owned());
+  SNUG_ASSERT(!has_set || from.active.size() == problem.n_owned(), "each row is active or not");
   for (unsigned int i = 0; i < problem.n_owned(); ++i)
     if (problem.bounded()[i] && is_warm)
       {

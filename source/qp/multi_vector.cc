@@ -1,7 +1,7 @@
+#include <snug/base/assertions.h>
 #include <snug/base/narrow.h>
 #include <snug/qp/multi_vector.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <petscsys.h>
 
@@ -16,15 +16,15 @@ MultiVector::MultiVector(unsigned int n_rows, unsigned int n_columns)
 
 void MultiVector::add(double factor, const MultiVector &x)
 {
-  Assert(rows == x.rows && columns == x.columns, dealii::ExcDimensionMismatch(columns, x.columns));
+  SNUG_ASSERT(rows == x.rows && columns == x.columns, "the sizes of the summands differ");
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] += factor * x.values[i];
 }
 
 void MultiVector::add_product(double factor, const MultiVector &x, const MultiVector &C)
 {
-  Assert(rows == x.rows && x.columns == C.rows && columns == C.columns,
-         dealii::ExcDimensionMismatch(x.columns, C.rows));
+  SNUG_ASSERT(rows == x.rows && x.columns == C.rows && columns == C.columns,
+              "the sizes of the factors do not fit");
   const PetscBLASInt m = rows, n = columns, k = x.columns, stride = 1;
   const double       one = 1.;
   if (m == 0 || n == 0 || k == 0)
@@ -40,7 +40,7 @@ void MultiVector::add_product(double factor, const MultiVector &x, const MultiVe
 /// Columns are contiguous, so appending columns does not move the others within the array.
 void MultiVector::append(const MultiVector &x)
 {
-  Assert(rows == x.rows, dealii::ExcDimensionMismatch(rows, x.rows));
+  SNUG_ASSERT_EQUAL(rows, x.rows);
   values.insert(values.end(), x.values.begin(), x.values.end());
   columns += x.columns;
 }
@@ -52,7 +52,7 @@ void MultiVector::reserve(unsigned int n)
 
 MultiVector MultiVector::columns_from(unsigned int first, unsigned int n) const
 {
-  AssertIndexRange(first + n, columns + 1);
+  SNUG_ASSERT_BELOW(first + n, columns + 1);
   MultiVector part(rows, n);
   part.values.assign(column(first), column(first) + std::size_t(n) * rows);
   return part;
@@ -63,7 +63,7 @@ MultiVector MultiVector::columns_from(unsigned int first, unsigned int n) const
 MultiVector inner_products(const MultiVector &X, const MultiVector &Y, MPI_Comm comm)
 {
   MultiVector products(X.n_columns(), Y.n_columns());
-  Assert(X.n_rows() == Y.n_rows(), dealii::ExcDimensionMismatch(X.n_rows(), Y.n_rows()));
+  SNUG_ASSERT_EQUAL(X.n_rows(), Y.n_rows());
   const PetscBLASInt m = X.n_columns(), n = Y.n_columns(), k = X.n_rows();
   const PetscBLASInt stride = 1;
   const double       one = 1., zero = 0.;

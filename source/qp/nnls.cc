@@ -1,8 +1,8 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
 #include <snug/qp/nnls.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -151,8 +151,8 @@ NnlsResult NonNegativeLeastSquares::solve()
 
 NnlsResult nnls(const MultiVector &A, const MultiVector &b)
 {
-  AssertDimension(A.n_rows(), b.n_rows());
-  AssertDimension(b.n_columns(), 1);
+  SNUG_ASSERT_EQUAL(A.n_rows(), b.n_rows());
+  SNUG_ASSERT_EQUAL(b.n_columns(), 1);
   const double sizes[2] = {norm_of(b.column(0), b.n_rows()),
                            norm_of(A.column(0), A.n_rows() * A.n_columns())};
   if (!std::isfinite(sizes[0]) || !std::isfinite(sizes[1]))

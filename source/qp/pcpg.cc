@@ -1,9 +1,9 @@
+#include <snug/base/assertions.h>
 #include <snug/qp/independent_columns.h>
 #include <snug/qp/kkt.h>
 #include <snug/qp/krylov_columns.h>
 #include <snug/qp/pcpg.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,8 +137,8 @@ KrylovResult Pcpg::solve(MultiVector               &lambda,
                          unsigned int               max_iterations)
 {
   const unsigned int k = lambda.n_columns();
-  AssertDimension(residual.n_columns(), k);
-  AssertDimension(tolerances.size(), k);
+  SNUG_ASSERT_EQUAL(residual.n_columns(), k);
+  SNUG_ASSERT_EQUAL(tolerances.size(), k);
   KrylovResult  result;
   KrylovColumns test(comm);
   correct(lambda, residual);

@@ -1,7 +1,7 @@
+#include <snug/base/assertions.h>
 #include <snug/base/narrow.h>
 #include <snug/sensitivity/load_steps.h>
 
-#include <deal.II/base/exceptions.h>
 
 namespace snug::sensitivity {
 template <int dim>
@@ -14,7 +14,7 @@ std::optional<unsigned int> step_before(const LoadCases<dim> &load_cases, const 
   for (unsigned int other = 0; other < k; ++other)
     if (load_cases[other].state.load_case == *after)
       return other;
-  AssertThrow(false, dealii::ExcMessage("the step before a load step is missing"));
+  SNUG_ASSERT(false, "the step before a load step is missing");
   return {};
 }
 

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/links.h>
@@ -210,7 +211,7 @@ Links::Links(const std::vector<Control<dim>> &controls, const ShapeParameters &p
 /// Fixed controls have the sign 0, and the variable index of a fixed control has no meaning.
 std::vector<double> Links::expand(const std::vector<double> &alpha) const
 {
-  AssertDimension(alpha.size(), size);
+  SNUG_ASSERT_EQUAL(alpha.size(), size);
   std::vector<double> result;
   for (const Tie &tie : ties)
     result.push_back(tie.sign == 0. ? 0. : tie.sign * alpha[tie.variable]);

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/shape/formula_modes.h>
 #include <snug/shape/make_modes.h>
 
@@ -78,7 +79,7 @@ std::unique_ptr<Shape<dim>> patch(const mesh::BodyMesh<dim> &mesh,
 template <int dim>
 typename Modes<dim>::Field Modes<dim>::apply(const std::vector<double> &alpha) const
 {
-  AssertDimension(alpha.size(), n_variables);
+  SNUG_ASSERT_EQUAL(alpha.size(), n_variables);
   Field moves(n_nodes);
   for (unsigned int node = 0; node < n_nodes; ++node)
     for (const auto &entry : row(node))

@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/faces/held_directions.h>
 #include <snug/faces/nodal_normals.h>
@@ -80,7 +81,7 @@ std::vector<std::pair<unsigned int, unsigned int>> find_faces(const mesh::BodyMe
                                                               const BodyNames           &bodies,
                                                               const ShapeParameters     &parameters)
 {
-  AssertDimension(bodies.names.size(), mesh.n_bodies());
+  SNUG_ASSERT_EQUAL(bodies.names.size(), mesh.n_bodies());
   std::vector<std::pair<unsigned int, unsigned int>> result;
   const auto require = [&](const bool good, const std::string &allowed) {
     if (!good)

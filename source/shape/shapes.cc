@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/shapes.h>
@@ -170,7 +171,7 @@ std::vector<double> Shapes<dim>::expanded(const Part &part, const std::vector<do
 template <int dim>
 typename Shapes<dim>::Field Shapes<dim>::apply(const std::vector<double> &alpha) const
 {
-  AssertDimension(alpha.size(), n_variables());
+  SNUG_ASSERT_EQUAL(alpha.size(), n_variables());
   Field result(mesh.n_points());
   for (const Part &part : parts)
     {
@@ -198,7 +199,7 @@ std::vector<std::pair<unsigned int, unsigned int>> Shapes<dim>::faces() const
 template <int dim>
 std::vector<MovedPoint<dim>> Shapes<dim>::control_points(const std::vector<double> &alpha) const
 {
-  AssertDimension(alpha.size(), n_variables());
+  SNUG_ASSERT_EQUAL(alpha.size(), n_variables());
   std::vector<MovedPoint<dim>> points;
   for (const Part &part : parts)
     {

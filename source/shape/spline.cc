@@ -1,6 +1,6 @@
+#include <snug/base/assertions.h>
 #include <snug/shape/spline.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,8 @@ Spline::Spline(const unsigned int n, const unsigned int degree, const bool close
 Spline::Spline(const std::vector<double> &breaks, const unsigned int degree, const bool closed)
   : size(breaks.size() - 1 + (closed ? 0 : degree)), p(degree), closed(closed)
 {
-  Assert(breaks.size() > 1 && breaks.front() == 0. && breaks.back() == 1.,
-         dealii::ExcMessage("A spline needs spans from 0 to 1."));
+  SNUG_ASSERT(breaks.size() > 1 && breaks.front() == 0. && breaks.back() == 1.,
+              "the spans of a spline go from 0 to 1");
   if (closed)
     {
       const int n = size, degree_of_knots = degree;
@@ -95,7 +95,7 @@ double Spline::greville(const unsigned int i) const
 /// on the knots without the first and the last one (de Boor, 1978).
 std::vector<Combination> Spline::derivative(const unsigned int order) const
 {
-  Assert(order <= p, dealii::ExcMessage("The degree is too low."));
+  SNUG_ASSERT(order <= p, "the order of the derivative exceeds the degree");
   std::vector<Combination> points;
   for (unsigned int i = 0; i + p + 1 < knots.size(); ++i)
     points.push_back({{i % size, 1.}});
@@ -196,7 +196,7 @@ unsigned int SplineNet::n_points() const
 
 std::vector<std::pair<unsigned int, double>> SplineNet::values(const std::vector<double> &s) const
 {
-  AssertDimension(s.size(), n_axes());
+  SNUG_ASSERT_EQUAL(s.size(), n_axes());
   std::vector<std::pair<unsigned int, double>> products = {{0, 1.}};
   unsigned int                                 stride   = 1;
   for (unsigned int axis = 0; axis < n_axes(); ++axis)

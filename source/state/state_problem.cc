@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
 #include <snug/state/axis_checks.h>
@@ -351,9 +352,9 @@ const feti::LoadedProblem &StateProblem<dim>::loaded(const Field       &position
                                                      const unsigned int load_case) const
 {
   const auto moved = moved_subdomains(positions);
-  AssertThrow(std::find(moved.begin(), moved.end(), true) == moved.end() &&
+  SNUG_ASSERT(std::find(moved.begin(), moved.end(), true) == moved.end() &&
                 loaded_problems[load_case],
-              dealii::ExcMessage("the problem is at another geometry or load case"));
+              "the problem is at another geometry or load case");
   return *loaded_problems[load_case];
 }
 

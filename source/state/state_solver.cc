@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/qp/pcpg.h>
 #include <snug/state/certificate.h>
@@ -162,16 +163,14 @@ ContactState<dim> StateSolver<dim>::solve_present(const Field               &pos
 template <int dim>
 const feti::LoadedProblem &StateSolver<dim>::feti(const ContactState<dim> &state) const
 {
-  Assert(state.pairing == n_pairings,
-         dealii::ExcMessage("the state belongs to another contact search"));
+  SNUG_ASSERT(state.pairing == n_pairings, "the state belongs to another contact search");
   return problem->loaded(state.positions, state.load_case);
 }
 
 template <int dim>
 void StateSolver<dim>::restore(const ContactState<dim> &state)
 {
-  Assert(state.pairing == n_pairings,
-         dealii::ExcMessage("the state belongs to another contact search"));
+  SNUG_ASSERT(state.pairing == n_pairings, "the state belongs to another contact search");
   problem->set(state.positions, state.load_case, state.slips_before);
 }
 

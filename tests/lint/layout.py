@@ -1,4 +1,4 @@
-"""File length, header guards, and where the deal.II version is asked for."""
+"""File length, header guards, assertions, and where the deal.II version is asked for."""
 
 import re
 
@@ -7,6 +7,7 @@ from files import CODE, lines, place, text_files
 MAX_LINES = 400
 COMPATIBILITY = "include/snug/base/deal_ii_compat.h"
 VERSION = re.compile(r"^\s*#\s*(if|ifdef|ifndef|elif)\b.*DEAL_II_VERSION")
+ASSERTION = re.compile(r"\b(?:Assert(?:Throw|Dimension|IndexRange|IsFinite)?|assert)\s*\(")
 DIRECTIVE = re.compile(r"^\s*#\s*(\w+)\s*(.*?)\s*$")
 
 
@@ -44,6 +45,10 @@ def check(root):
             messages += [f"{place(root, path, number)}: ask for the deal.II"
                          f" version only in {COMPATIBILITY}"
                          for number, line in numbered if VERSION.match(line)]
+        if path.suffix in CODE and root / "tests" not in path.parents:
+            messages += [f"{place(root, path, number)}: use the assertions of"
+                         " snug/base/assertions.h, which hold in every build"
+                         for number, line in numbered if ASSERTION.search(line)]
         if path.suffix == ".h" and root / "include" in path.parents:
             messages += check_guard(root, path)
     return messages

@@ -152,6 +152,11 @@ class Layout(Tree):
 
 
 class Format(Tree):
+    def test_an_assertion_of_debug_builds_is_found(self):
+        self.write("source/feti/a.cc", "SNUG_ASSERT(i < n, \"too large\");\n"
+                   "static_assert(sizeof(int) == 4);\n  AssertDimension(i, n);\n")
+        self.expect(layout.check(self.root), "source/feti/a.cc:3: use the assertions")
+
     def test_a_crooked_file_is_found(self):
         self.write(".clang-format", "BasedOnStyle: LLVM\n")
         self.write("source/a.cc", "int a;\n")

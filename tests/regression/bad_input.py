@@ -21,6 +21,7 @@ sys.path[:0] = [str(ROOT / "contrib/lib" / folder)
                 for folder in ("", "stability")]
 
 from many import End, run_many  # noqa: E402
+from runs import sample  # noqa: E402
 from wrong_entries import (input_cases, option_cases, partial_cases,  # noqa: E402
                            setup_cases)
 
@@ -352,16 +353,16 @@ def main():
         slave, master = re.split(r"\s*[:,]\s*", runner.entry("Pairs"))[:2]
         check_good(runner, scene)
         cases = input_cases(bodies[0], slave, master)
-        for case in cases + option_cases():
+        for case in sample(cases + option_cases()):
             check_case(runner, case)
         for case in cases[:3] + cases[-5:-3]:
             check_case(runner, case, ranks=3)
-        for case in setup_cases(bodies[0], slave):
+        for case in sample(setup_cases(bodies[0], slave)):
             check_case(runner, case._replace(options=["--validate"]))
         # Wrong command lines end before MPI begins.
         scene_only = [scene, "--set", "Task=optimise"]
         runner.expect_error_alone("wrong value in a setting", scene_only, ["Task", "optimise"], 3)
-        for case in partial_cases(bodies[0]):
+        for case in sample(partial_cases(bodies[0])):
             check_case(runner, case, ranks=3)
             check_case(runner, case._replace(options=["--validate"]))
         check_files(runner, scene)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Contact faces that a mesh file cuts into several boundaries: seams.py SNUG [all] [RANKS].
+"""Contact faces that a mesh file cuts into several boundaries: seams.py SNUG [RANKS].
 
 Two blocks, or a block and an obstacle, are pressed on each other by 100. The faces in contact are
 cut into boundaries in many ways; each cut scene has the rows, forces, areas and pressures of the
 uncut one, a pressure of 100 at each node where the method passes the patch test, and the force on
 each pair is 100 times its area. A curved punch is cut through the peak of its pressure. A block in
-a corner touches two walls. 'all' runs every combination instead of a sample of them."""
+a corner touches two walls."""
 
 import itertools
 import pathlib
@@ -14,6 +14,7 @@ import tempfile
 
 from corner_blocks import check_corner
 from cut_blocks import Block, halves, on_face, run, sphere, thirds, whole
+from runs import sample
 
 PRESSURE = 100.
 def scene_of(case, pairs, more=""):
@@ -134,7 +135,8 @@ def check_case(snug, case, ranks):
     return errors
 
 
-def cases(every):
+def cases():
+    """Return all combinations, the crowned punch first."""
     result = []
     for dim, model in ((2, "plane strain"), (2, "axisymmetric"), (3, "solid")):
         for degree, method, master, cut in itertools.product(
@@ -171,20 +173,17 @@ def cases(every):
                     "cells": 4, "below": below, "named": "list" if cut == "list" else "pairs",
                     "patch": method == "mortar" or below == 4,
                     "name": f"{model} degree {degree} {method} {master} {below}, cut: {cut}"})
-    if every == "crowned":
-        result = []
-    elif not every:
-        result = result[::11]
     # through the peak of a crowned punch
+    crowned = []
     for dim, method, master in ((2, "nodal", "obstacle"), (2, "mortar", "body"), (3, "nodal", "body"),
                                 (3, "mortar", "body")):
-        result.append({
+        crowned.append({
             "dim": dim, "model": "plane strain" if dim == 2 else "solid", "degree": 1,
             "method": method, "master": master, "slave": halves("s", 0.5),
             "master_cut": halves("m", 0.5), "areas": [], "cells": 8, "below": 8,
             "named": "pairs", "patch": False, "lift": sphere(4., 0.5),
             "name": f"crowned {dim}D {method} {master}"})
-    return result
+    return crowned + result
 
 
 GRADIENT = """
@@ -312,21 +311,20 @@ def check_target(snug, master, ranks):
     return errors
 
 
-def main(snug, *more):
-    every = next((m for m in more if m in ("all", "crowned")), "")
-    ranks = max([int(m) for m in more if m.isdigit()] + [1])
+def main(snug, ranks=1):
+    ranks = int(ranks)
     checks = [(case["name"], lambda case=case: check_case(snug, case, ranks))
-              for case in cases(every)]
+              for case in sample(cases())]
     corners = [corner for corner in itertools.product((2, 3), (1, 2), ("nodal", "mortar"),
                                                       ("obstacle", "body"))
                if corner[2:] != ("mortar", "obstacle")]
-    for corner in corners if every else corners[1::4]:
+    for corner in sample(corners[::-1]):
         checks.append(("corner " + " ".join(map(str, corner)),
                        lambda corner=corner: check_corner(snug, *corner, ranks)))
-    for master in ("body", "obstacle") if every else ("body",):
+    for master in sample(("body", "obstacle")):
         checks.append((f"target {master}",
                        lambda master=master: check_target(snug, master, ranks)))
-    for dim, method in ((2, "nodal"), (2, "mortar"), (3, "mortar")) if every else ((2, "nodal"),):
+    for dim, method in sample(((2, "nodal"), (2, "mortar"), (3, "mortar"))):
         checks.append((f"gradient {dim}D {method}",
                        lambda dim=dim, method=method: check_gradient(snug, dim, method, ranks)))
     wrong = 0

@@ -1,6 +1,7 @@
 #ifndef snug_contact_node_rows_h
 #define snug_contact_node_rows_h
 
+#include <snug/base/assertions.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/contact/row_derivatives.h>
 #include <snug/faces/nodal_normals.h>
@@ -74,7 +75,7 @@ public:
                     const std::vector<RowSlopes<dim>> &slopes,
                     Field                             &gradient) const override
   {
-    AssertDimension(slopes.size(), nodes.with_rows.size());
+    SNUG_ASSERT_EQUAL(slopes.size(), nodes.with_rows.size());
     const auto       normals = master_normals(positions);
     Field            normal_gradient(surface.n_nodes());
     faces::Recording recording;

@@ -41,7 +41,8 @@ public:
   Recorded variable(double value);
 
   /// Return the result of an operation on @p a and @p b, constants or numbers of one recording,
-  /// with its derivatives with respect to both.
+  /// with its derivatives with respect to both. This function is not inline, because it is called
+  /// by each operation of each formula, which would take three times as long to compile.
   static Recorded
   operation(double value, const Recorded &a, double by_a, const Recorded &b, double by_b);
 
@@ -174,33 +175,6 @@ struct Recorded
 inline double value_of(const Recorded &a)
 {
   return a.value;
-}
-
-inline Recorded Recording::add_step(const double value)
-{
-  steps.push_back({static_cast<unsigned int>(operands.size())});
-  return {value, this, static_cast<unsigned int>(steps.size() - 1)};
-}
-
-inline Recorded Recording::variable(const double value)
-{
-  return add_step(value);
-}
-
-inline Recorded Recording::operation(const double    value,
-                                     const Recorded &a,
-                                     const double    by_a,
-                                     const Recorded &b,
-                                     const double    by_b)
-{
-  Recording *const recording = a.recording ? a.recording : b.recording;
-  if (!recording)
-    return value;
-  if (a.recording)
-    recording->operands.push_back({a.step, by_a});
-  if (b.recording)
-    recording->operands.push_back({b.step, by_b});
-  return recording->add_step(value);
 }
 
 template <typename Factors, typename Numbers>

@@ -1,6 +1,7 @@
 #ifndef snug_state_model_h
 #define snug_state_model_h
 
+#include <snug/base/assertions.h>
 #include <snug/contact/pair.h>
 #include <snug/contact/placed_surface.h>
 #include <snug/elasticity/element.h>
@@ -11,7 +12,6 @@
 #include <snug/supports/spring.h>
 #include <snug/supports/support.h>
 
-#include <deal.II/base/exceptions.h>
 
 #include <functional>
 #include <map>
@@ -26,7 +26,7 @@ struct BodyModel
 
   const elasticity::Material &material(const typename mesh::BodyMesh<dim>::Cell &cell) const
   {
-    AssertIndexRange(cell.region, materials.size());
+    SNUG_ASSERT_BELOW(cell.region, materials.size());
     return materials[cell.region];
   }
 };
