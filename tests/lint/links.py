@@ -1,4 +1,5 @@
-"""Links, pictures and the names of files in pages and in CMake files lead to files that exist.
+"""Links, pictures and the names of files in pages and in CMake files lead to files that exist, and
+pages on an interface name each of its functions.
 
 A page names files by their path, and in `code` also by module/file, with or without the suffix, or
 by the name of a source alone. The changelog names files of the past."""
@@ -19,7 +20,10 @@ ARGUMENT = re.compile(r"(?<![\w./}<>:-])((?:\.\./[\w./+-]*\w|[\w./+-]*\w\.(?:cc|
                       r"(?![\w./{$*])")
 PLACEHOLDER = re.compile(r"\b(BODY|DECK|FILE|NAME)\b")
 # The files that doc/add-a-response.md adds.
-ADDED = re.compile(r"/displaced_volume\.(cc|h)$")
+ADDED = re.compile(r"/displaced_volume\.cc$")
+# Pages that tell when to override each virtual function of a header.
+INTERFACES = {"doc/add-a-response.md": "include/snug/response/response.h"}
+VIRTUAL = re.compile(r"\bvirtual [^;({~]*\b(\w+)\(")
 
 
 def check_links(root, path, number, line):
@@ -66,7 +70,18 @@ def check_file(root, path):
             yield from check_names(root, path, number, line)
 
 
+def check_interfaces(root):
+    for page, header in INTERFACES.items():
+        if not (root / header).is_file():
+            continue
+        first_cells = {line.split("|")[1].strip() for _, line in lines(root / page) if "|" in line}
+        for function in VIRTUAL.findall((root / header).read_text(encoding="utf-8")):
+            if f"`{function}`" not in first_cells:
+                yield f"{page}:1: the tables lack `{function}` of {header}"
+
+
 def check(root):
     paths = [path for path in [*top_files(root), *text_files(root)]
              if path.suffix in (".cmake", ".md") or path.name == "CMakeLists.txt"]
-    return list(dict.fromkeys(message for path in paths for message in check_file(root, path)))
+    messages = [message for path in paths for message in check_file(root, path)]
+    return [*dict.fromkeys(messages), *check_interfaces(root)]

@@ -298,6 +298,15 @@ class Links(Tree):
                     "source/CMakeLists.txt:4: no file 'tests/no.py'",
                     "source/CMakeLists.txt:4: no file '../contrib/test'")
 
+    def test_a_function_that_a_page_lacks_is_found(self):
+        self.write("include/snug/response/response.h", "virtual ~Response() = default;\n"
+                   "virtual bool a() const { return b(); }\nvirtual std::vector<int> c(\n"
+                   "  const int &) const = 0;\nint d();\n")
+        self.write("doc/add-a-response.md", "| `a` | |\n| `c` | |\n")
+        self.expect(links.check(self.root))
+        self.write("doc/add-a-response.md", "| `a` | `c` |\n")
+        self.expect(links.check(self.root), "doc/add-a-response.md:1: the tables lack `c`")
+
 
 class Options(Tree):
     HEAD = "| entry | default | allowed | meaning |\n|---|---|---|---|\n"
