@@ -3,7 +3,9 @@
 import pathlib
 
 # Folders whose text is ours; anything else (build trees, output) is not.
-FOLDERS = (".ci", "contrib", "doc", "include", "prm", "source", "tests")
+FOLDERS = (".ci", ".github", "contrib", "doc", "include", "prm", "source", "tests")
+TOP = (".clang-format", ".clang-tidy", ".editorconfig", "CHANGELOG.md", "CITATION.cff",
+       "CMakeLists.txt", "CMakePresets.json", "CONTRIBUTING.md", "Containerfile", "README.md")
 CODE = (".h", ".cc")
 
 
@@ -17,13 +19,20 @@ def text_files(root, folders=FOLDERS, suffixes=None):
                 yield path
 
 
+def top_files(root):
+    """Our text files of the main folder; LICENSE is text of others."""
+    return [root / name for name in TOP if (root / name).is_file()]
+
+
 def lines(path):
-    """(number, line) of a text file; none of a binary one."""
+    """(number, line) of a text file; none of a binary one. Only a line feed ends a line, so that
+    other control characters stay in it."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_bytes().decode("utf-8")
     except UnicodeDecodeError:
         return []
-    return list(enumerate(text.splitlines(), 1))
+    text = text.removesuffix("\n")
+    return list(enumerate(text.split("\n"), 1)) if text else []
 
 
 def place(root, path, line=1):

@@ -201,6 +201,15 @@ class Words(Tree):
         self.write("source/a.cc", "// Methodology\n// TO" "DO: later\n")
         self.expect(words.check(self.root), "source/a.cc:2: ")
 
+    def test_control_characters_are_found(self):
+        self.write("doc/a.md", "$$a =\n  \frac{1}{2}$$\n")
+        self.write("README.md", "a\u200bb\n")
+        (self.root / "doc/a.csv").write_bytes(b"a,b\r\n1,2\n")
+        (self.root / "doc/a.png").write_bytes(b"\x89PNG\r\n\x00")
+        self.expect(words.check(self.root), "doc/a.csv:1: the control character U+000D",
+                    "doc/a.md:2: the control character U+000C",
+                    "README.md:1: the control character U+200B")
+
     def test_a_comment_that_begins_with_a_fragment_is_found(self):
         self.write("include/snug/mesh/a.h", "/// Return the area.\n/// Of one face.\nint a;\n"
                    "/// Of all faces.\nint b;\nint c; ///< of a face\n/**\n * What c is.\n"
@@ -256,6 +265,52 @@ class Links(Tree):
     def test_a_link_starts_from_its_own_file(self):
         self.write("doc/a.md", "[a](architecture.md) [b](doc/architecture.md)\n")
         self.expect(links.check(self.root), "doc/a.md:1: no file 'doc/")
+
+    def test_a_page_that_names_a_lost_file_is_found(self):
+        for name in ("include/snug/mesh/forest.h", "source/mesh/forest.cc", "tests/unit/a_b.cc"):
+            self.write(name, "")
+        page = ("`mesh/forest`, `mesh/forest.cc`, `mesh/forest.h` and `a_b.cc`, source/mesh/forest.cc,"
+                "\n`prm/NAME.prm`, tests/unit/<module>/, `Mesh/File`, `output/a.cc/b`, `base`\n"
+                "```\n#include <snug/mesh/forest.h>\n```\n")
+        self.write("README.md", page)
+        self.expect(links.check(self.root))
+        self.write("CHANGELOG.md", page.replace("forest", "tree"))
+        self.expect(links.check(self.root))
+        self.write("README.md", page.replace("forest", "tree").replace("a_b", "c"))
+        self.expect(links.check(self.root), "README.md:1: no file 'source/mesh/tree.cc'",
+                    "README.md:1: no file 'mesh/tree'", "README.md:1: no file 'mesh/tree.cc'",
+                    "README.md:1: no file 'mesh/tree.h'", "README.md:1: no file 'c.cc'",
+                    "README.md:4: no file 'include/snug/mesh/tree.h'")
+        self.write("README.md", "    build/snug prm/no.prm --output output/no\n")
+        self.expect(links.check(self.root), "README.md:1: no file 'prm/no.prm'")
+
+    def test_a_cmake_file_that_names_a_lost_file_is_found(self):
+        for name in ("source/mesh/a.cc", "source/version.h.in", "contrib/run", "tests/lint.py"):
+            self.write(name, "")
+        self.write("source/CMakeLists.txt", "# see doc/architecture.md\n"
+                   "set(a mesh/a.cc ${b}/c.cc *.cc <deal.II/mpi.h>)\n"
+                   "configure_file(version.h.in ${PROJECT_BINARY_DIR}/version.h)\n"
+                   "test(../contrib/run ../contrib/${study} ${PROJECT_SOURCE_DIR}/tests/lint.py)\n")
+        self.expect(links.check(self.root))
+        self.write("source/CMakeLists.txt", "# see doc/a.md\nset(a mesh/b.cc mesh/a.cc)\n"
+                   "configure_file(a.h.in ${PROJECT_BINARY_DIR}/version.h)\n"
+                   "test(../contrib/test ${PROJECT_SOURCE_DIR}/tests/no.py)\n")
+        self.write("contrib/cmake/a.cmake", "# tests/no.cc\n")
+        self.expect(links.check(self.root), "contrib/cmake/a.cmake:1: no file 'tests/no.cc'",
+                    "source/CMakeLists.txt:1: no file 'doc/a.md'",
+                    "source/CMakeLists.txt:2: no file 'mesh/b.cc'",
+                    "source/CMakeLists.txt:3: no file 'a.h.in'",
+                    "source/CMakeLists.txt:4: no file 'tests/no.py'",
+                    "source/CMakeLists.txt:4: no file '../contrib/test'")
+
+    def test_a_function_that_a_page_lacks_is_found(self):
+        self.write("include/snug/response/response.h", "virtual ~Response() = default;\n"
+                   "virtual bool a() const { return b(); }\nvirtual std::vector<int> c(\n"
+                   "  const int &) const = 0;\nint d();\n")
+        self.write("doc/add-a-response.md", "| `a` | |\n| `c` | |\n")
+        self.expect(links.check(self.root))
+        self.write("doc/add-a-response.md", "| `a` | `c` |\n")
+        self.expect(links.check(self.root), "doc/add-a-response.md:1: the tables lack `c`")
 
 
 class Options(Tree):

@@ -1,22 +1,18 @@
-"""No marks of unfinished work, and plain words: doc comments begin with a verb or a noun,
-nouns agree with the number 1, cells of tables are short."""
+"""No marks of unfinished work, no control characters, and plain words: doc comments begin with
+a verb or a noun, nouns agree with the number 1, cells of tables are short."""
 
 import re
+import unicodedata
 
-from files import CODE, lines, place, text_files
+from files import CODE, lines, place, text_files, top_files
 
 # Split so that this file does not find itself.
 MARK = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
-TOP = ("CMakeLists.txt", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff")
 FRAGMENT = re.compile(r"\s*(?:///|/\*\*|\*)<?\s*(Of|Those|That|What|Whether|None|As)\b")
 COMMENT = re.compile(r"\s*(?:///|\*|/\*\*.)")  # not a first line /** without text
 ONE_OF_MANY = re.compile(r"(?<![\w.,])1 (bodies|cells|evaluations|F-mults|faces|iterations|meshes|"
                          r"nodes|processes|ranks|records|responses|subdomains|unknowns|variables)\b")
 MAX_CELL = 300
-
-
-def top_files(root):
-    return [root / name for name in TOP if (root / name).is_file()]
 
 
 def check_comments(root, path):
@@ -41,6 +37,10 @@ def check_cells(root, path):
 
 
 def check_line(root, path, number, line):
+    for character in sorted(set(line)):
+        # Control characters, and those without a width, which no reader sees.
+        if unicodedata.category(character) in ("Cc", "Cf"):
+            yield f"{place(root, path, number)}: the control character U+{ord(character):04X}"
     if MARK.search(line):
         yield f"{place(root, path, number)}: finish it or open an issue: {line.strip()}"
     for noun in ONE_OF_MANY.findall(line):
