@@ -131,7 +131,7 @@ struct Subproblem
   }
 };
 
-/// Return SLSQP in a box, with at most a thousand evaluations of the model.
+/// Return NLopt's SLSQP in a box, with at most a thousand evaluations of the model.
 nlopt::opt optimizer(const Vector &lower, const Vector &upper)
 {
   nlopt::opt result(nlopt::LD_SLSQP, narrow<unsigned int>(lower.size()));

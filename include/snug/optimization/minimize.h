@@ -66,10 +66,10 @@ enum class StopReason
 struct OptimizationResult
 {
   std::vector<double> x;
-  Algorithm           algorithm = Algorithm::SLSQP; ///< that finished
-  Evaluation          evaluation;                   ///< at x
-  unsigned int        iterations           = 0;     ///< accepted designs after the start
-  unsigned int        evaluations          = 0;     ///< calls of the design problem
+  Algorithm           algorithm = Algorithm::SQP; ///< that finished
+  Evaluation          evaluation;                 ///< at x
+  unsigned int        iterations           = 0;   ///< accepted designs after the start
+  unsigned int        evaluations          = 0;   ///< calls of the design problem
   double              objective_initial    = 0.;
   double              objective_final      = 0.;
   double              constraint_violation = 0.; ///< as in Iteration
