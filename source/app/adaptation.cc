@@ -50,7 +50,8 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::first_mesh(const Refinement &ref
   return mesh;
 }
 
-/// Cells that were refined for the targets have errors of the size of the targets.
+/// Return the solver tolerance on the first mesh. Cells that were refined for the targets have
+/// errors of the size of the targets, from which the tolerance then follows.
 template <int dim>
 double Adaptation<dim>::first_tolerance(const Refinement &refinement) const
 {
@@ -165,7 +166,8 @@ std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::stage(Mesh mesh, const dou
   return result;
 }
 
-/// States and the values of the targets. Collective.
+/// Solve the states of a stage from @p starts, and measure the responses of the targets.
+/// Collective.
 template <int dim>
 void Adaptation<dim>::solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const
 {
@@ -177,7 +179,7 @@ void Adaptation<dim>::solve(Stage &stage, const std::vector<qp::WarmStart> &star
   measure(stage);
 }
 
-/// The values of the targets, without errors. Collective.
+/// Set the values of the targets, without errors. Collective.
 template <int dim>
 void Adaptation<dim>::measure(Stage &stage) const
 {
@@ -188,8 +190,9 @@ void Adaptation<dim>::measure(Stage &stage) const
        std::numeric_limits<double>::infinity()});
 }
 
-/// The errors of a mesh on which they have a meaning; states that are not solved well enough for
-/// it are solved on. Collective.
+/// Set the values of the targets with their estimated errors. The mesh must resolve the contact,
+/// otherwise the estimates have no meaning. States that are not accurate enough for an estimate are
+/// solved to smaller tolerances. Collective. @throws SolveError.
 template <int dim>
 void Adaptation<dim>::estimate(Stage &stage) const
 {
@@ -217,7 +220,8 @@ void Adaptation<dim>::estimate(Stage &stage) const
       stage.errors[demands[d].load_case].responses[demands[d].place].second.error();
 }
 
-/// Another mesh, solved from the states of the last. Collective.
+/// Return the stage of another mesh, solved from the states on the last mesh, or cold if that
+/// fails. Collective. @throws SolveError.
 template <int dim>
 std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::solve_next(Mesh mesh)
 {
@@ -232,12 +236,14 @@ std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::solve_next(Mesh mesh)
     }
   catch (const SolveError &)
     {
-      solve(*next, {}); // the forces of a coarse mesh may lead astray
+      // The forces of a coarse mesh may be a bad start.
+      solve(*next, {});
     }
   return next;
 }
 
-/// Without loads there is rounding, of which nothing can be estimated.
+/// Return whether all states are at rest. Without loads, states are round-off, of which nothing can
+/// be estimated.
 template <int dim>
 bool Adaptation<dim>::is_at_rest() const
 {
@@ -251,7 +257,7 @@ bool Adaptation<dim>::is_met(const unsigned int demand) const
   return is_at_rest() || estimate.error <= demands[demand].allowed(estimate);
 }
 
-/// The user's.
+/// Return the minimum tolerance of states: that of the scene, or else the default of the solver.
 template <int dim>
 double Adaptation<dim>::least() const
 {
@@ -277,7 +283,8 @@ double Adaptation<dim>::tolerance(const Stage &stage)
   return largest;
 }
 
-/// The states are known less well than the errors, as where the first mesh is better than needed.
+/// Return whether the states are less accurate than their errors require, as they are if the first
+/// mesh is finer than needed.
 template <int dim>
 bool Adaptation<dim>::is_rough() const
 {

@@ -15,7 +15,7 @@ const double sure_tolerance = 1e-6;
 /// Maximum part of a target's response that may come from a sharp edge.
 const double small_part = 0.5;
 
-/// The least of all load cases.
+/// Return the minimum number of faces across a contact in all load cases; infinite: no contact.
 template <int dim>
 double contact_faces(const std::vector<state::ContactState<dim>> &states)
 {
@@ -107,8 +107,8 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
          (unresolved.empty() ? "" : "; " + unresolved.front()) + "; " + advice;
 }
 
-/// The part of a response that the contact forces at an edge make: its change without them.
-/// Collective.
+/// Return the part of a response that is due to the contact forces at an edge: its change without
+/// these forces. Collective.
 template <int dim>
 double part_of_edge(const response::Response<dim>  &response,
                     const state::StateSolver<dim>  &solver,
@@ -121,9 +121,10 @@ double part_of_edge(const response::Response<dim>  &response,
   return std::abs(response.value(solver, state) - response.value(solver, without));
 }
 
-/// Targets of pressures may have no limit as cells get smaller, though their errors are small on
-/// each mesh. Where the part of a sharp edge is small beside the target, the value holds away from
-/// the edge, and a warning says so. @return why a target cannot be met; empty: all can. Collective.
+/// Return why a sharp edge prevents a target from being met; empty: no edge does. Pressures at a
+/// sharp edge may have no limit as cells get smaller, although their errors are small on each mesh.
+/// If the part of the edge is small compared with the target, a warning says that the value holds
+/// away from the edge. Collective.
 template <int dim>
 std::string Adaptation<dim>::unbounded_at_edge()
 {

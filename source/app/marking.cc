@@ -74,8 +74,9 @@ bool Adaptation<dim>::reads_pressure() const
                      [](const auto &demand) { return demand.reads_pressure; });
 }
 
-/// Cells of contacts of too few faces, if a response reads their pressure, of those all but closed,
-/// and of gaps that have more than these. @return whether there are any. Collective.
+/// Add the cells of contacts with too few faces, if a target reads pressures, of almost closed gaps
+/// of pairs without a force, and of gaps whose roughness the faces do not resolve. Return whether
+/// there are any. Collective.
 template <int dim>
 bool Adaptation<dim>::add_doubtful(Refinement &to)
 {
@@ -99,7 +100,7 @@ bool Adaptation<dim>::add_doubtful(Refinement &to)
   return doubtful;
 }
 
-/// Cells of the demands that are not met. Collective.
+/// Add the cells that the estimates mark for the demands that are not met. Collective.
 template <int dim>
 void Adaptation<dim>::add_marked(Refinement &to) const
 {

@@ -19,7 +19,7 @@ namespace {
 template <int dim>
 using Box = typename MeshSummary<dim>::Box;
 
-/// The box of @p points of all ranks. Collective.
+/// Return the bounding box of the @p points of all ranks. Collective.
 template <int dim>
 Box<dim> box_of(const std::vector<dealii::Tensor<1, dim>> &points, MPI_Comm communicator)
 {
@@ -122,7 +122,8 @@ typename MeshSummary<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mes
   return entry;
 }
 
-/// @p size: of the body, against which round-off does not show.
+/// Return the extents of a box as text. Numbers that are round-off, relative to the @p size of the
+/// body, are shown as 0.
 template <int dim>
 std::string extents(const Box<dim> &box, double size)
 {
@@ -138,7 +139,7 @@ std::string extents(const Box<dim> &box, double size)
   return text.str();
 }
 
-/// Zero where boxes overlap.
+/// Return the distance between two boxes, which is zero if they overlap.
 template <int dim>
 double distance(const Box<dim> &a, const Box<dim> &b)
 {
@@ -215,10 +216,10 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
     }
 }
 
-/// Bodies share no vertices, so that one which is refined further does not refine another.
 template <int dim>
 std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
 {
+  // Bodies share no vertices, so the refinement of one body does not refine another one.
   std::vector<double> n_cells(scene.bodies.size(), 0.);
   for (const auto &cell : mesh.cells())
     n_cells[cell.body] += 1.;

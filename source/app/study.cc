@@ -24,7 +24,8 @@
 
 namespace snug::app {
 namespace {
-/// States on the way to targets are solved no better than the error of their mesh asks for.
+/// Print the certificate of a state, with the tolerance of the state if it is larger than usual:
+/// states for targets are solved only as accurately as the error of their mesh requires.
 template <int dim>
 void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
 {
@@ -41,7 +42,7 @@ void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
   out << std::endl;
 }
 
-/// In the plane only the last component.
+/// Return the components of a moment as text, in the plane only the last one.
 template <int dim>
 std::string moment_text(const dealii::Tensor<1, 3> &moment)
 {
@@ -257,15 +258,17 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
     throw SolveError(failure_reason);
 }
 
-/// A misspelt one would not show otherwise.
+/// Warn of PETSc options that were not used, because a misspelt option would not be noticed
+/// otherwise. Collective.
 void warn_of_unused_petsc_options(RunContext &context)
 {
   for (const auto &option : petsc::unused_options(context.communicator()))
     context.warn("PETSc option " + option + " was not used");
 }
 
-/// OpenBLAS takes its buffer at the first call that needs one, and tries for ever where there
-/// is no memory: have it at once, if there is some.
+/// Make OpenBLAS allocate its buffer, after a check that there is memory for the buffer. Otherwise
+/// OpenBLAS would allocate at the first call that needs the buffer, and retry indefinitely if there
+/// is no memory. @throws std::bad_alloc.
 void reserve_blas_buffer()
 {
   const std::size_t more_than_it_takes = std::size_t(256) << 20;

@@ -8,8 +8,9 @@
 
 namespace snug::app {
 namespace {
-/// The part of loads that the first mesh may miss: where loads jump, this error falls unevenly from
-/// mesh to mesh, and so it is made small beside the targets at once.
+/// Return the part of the loads that the first mesh may miss. Where loads jump, this error
+/// decreases irregularly from mesh to mesh; therefore it is made small compared with the targets at
+/// once.
 double missed_loads(const scene::Scene &scene)
 {
   const double least = 0.002;
@@ -23,8 +24,9 @@ double missed_loads(const scene::Scene &scene)
 }
 } // namespace
 
-/// A first mesh that has the loads and the surfaces of the scene, of which states and estimates see
-/// nothing where no Gauss point and no node is. Collective.
+/// Refine the first mesh until it resolves the loads and the surfaces of the scene, and warn of
+/// what remains unresolved. States and estimates cannot depend on details without Gauss points and
+/// nodes. Collective.
 template <int dim>
 void Adaptation<dim>::resolve_data()
 {
@@ -52,8 +54,9 @@ void Adaptation<dim>::resolve_data()
     }
 }
 
-/// The part of pressures that gaps between nodes may change: of responses that are not made of
-/// pressures, they change little. Collective.
+/// Return the part of pressures that the roughness of gaps between nodes may change. The part is
+/// smaller for responses that are functions of pressures, because the roughness changes others
+/// little. Collective.
 template <int dim>
 double Adaptation<dim>::rough_part() const
 {

@@ -8,10 +8,11 @@
 
 namespace snug::app {
 namespace {
-/// Meshes of so many unknowns take about a second, whatever the meshes before took.
+/// Number of unknowns up to which the mesh for verification takes about a second, so that it is
+/// always solved.
 constexpr double cheap_unknowns = 1e4;
 
-/// How often the mesh that has missed the targets is gone on with.
+/// Maximum number of meshes for verification that are refined further after missing the targets.
 constexpr unsigned int most_finer = 3;
 } // namespace
 
@@ -67,7 +68,8 @@ std::string Adaptation<dim>::verify()
   return "verification failed on the finer mesh (" + missed + "): relax 'Target'";
 }
 
-/// Without an entry, where it takes no longer than the meshes before.
+/// Return whether the mesh is to be verified: as `Verify` says or, without this entry, if the
+/// verification takes no longer than the meshes before.
 template <int dim>
 bool Adaptation<dim>::is_to_be_verified() const
 {
@@ -80,7 +82,7 @@ bool Adaptation<dim>::is_to_be_verified() const
   return needed <= std::min(spent, scene.accuracy.maximum_unknowns);
 }
 
-/// A mesh that verifies and says otherwise is the next one.
+/// Continue on the mesh for verification if the targets are missed there.
 template <int dim>
 std::string Adaptation<dim>::settle()
 {

@@ -73,7 +73,7 @@ void check_blind_start(const ScaledProblem &problem, OptimizationResult &result)
     "the constraint: change 'Initial' of the shape, or use <= or >=";
 }
 
-/// Run the search by the algorithm of the parameters and, where MMA has stalled, go on by SQP.
+/// Run the search with the algorithm of the parameters. If MMA stalls, SQP continues the search.
 OptimizationResult search(ScaledProblem                &problem,
                           Progress                     &progress,
                           const OptimizationParameters &parameters,

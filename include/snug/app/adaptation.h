@@ -9,7 +9,7 @@
 #include <optional>
 
 namespace snug::app {
-/// A mesh that was made for targets, and the analysis of a design on this mesh.
+/// This struct holds a mesh that was made for targets, and the analysis of a design on this mesh.
 template <int dim>
 struct AdaptedProblem
 {
@@ -21,13 +21,13 @@ struct AdaptedProblem
 };
 
 /**
- * Adaptive refinement for a design. Each mesh is refined from the mesh before where its errors are
- * large, until the targets are met: bodies of CAD files are meshed anew, and the cells of other
- * bodies are divided. The analysis on a mesh starts from the contact forces on the
- * mesh before, to a solver tolerance that follows the discretization error. Contact faces that lie
- * opposite to each other are kept at one size. The states on which the marked cells depend change
- * within the solver tolerance when the subdomains change. The subdomains therefore do not depend on
- * the number of ranks, and neither do the meshes.
+ * This class refines meshes adaptively for a design. Each mesh is refined from the mesh before
+ * where its errors are large, until the targets are met: bodies of CAD files are meshed anew, and
+ * the cells of other bodies are divided. The analysis on a mesh starts from the contact forces on
+ * the mesh before, to a solver tolerance that follows the discretization error. Contact faces that
+ * lie opposite to each other are kept at one size. The states on which the marked cells depend
+ * change within the solver tolerance when the subdomains change. The subdomains therefore do not
+ * depend on the number of ranks, and neither do the meshes.
  */
 template <int dim>
 class Adaptation
@@ -36,7 +36,8 @@ public:
   using States = typename ShapeProblem<dim>::States;
   using Design = typename ShapeProblem<dim>::Design;
 
-  /// @p context and this object must outlive the problems that it makes.
+  /// Keep a reference to @p context and a copy of @p scene. @p context and this object must outlive
+  /// the problems that it makes.
   Adaptation(RunContext &context, const scene::Scene &scene) : context(context), scene(scene) {}
 
   /// Make the first mesh for @p design, or for the initial design if @p design is empty, and solve

@@ -8,7 +8,7 @@
 #include <iosfwd>
 
 namespace snug::app {
-/// Summary of the meshes of a scene for the author of the scene: sizes, boundaries, regions.
+/// This struct summarizes the meshes of a scene for its author: sizes, boundaries, regions.
 template <int dim>
 struct MeshSummary
 {
@@ -25,7 +25,7 @@ struct MeshSummary
     Box         box;
   };
 
-  /// A set of cells that can have its own material.
+  /// This struct describes a set of cells that can have its own material.
   struct Region
   {
     std::string   name;
@@ -45,22 +45,24 @@ struct MeshSummary
   std::vector<Body> bodies;
 };
 
-/// The meshes as they are, refined. Collective.
+/// Return the summary of the refined meshes of a scene. Collective.
 template <int dim>
 MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
-/// One line per body, region and boundary.
+/// Print a line for each body, for each region of a body with several regions, and for each
+/// boundary.
 template <int dim>
 void print(const MeshSummary<dim> &summary, std::ostream &out);
 
 /**
- * @throws InputError if the faces of a pair are farther apart than ten
- *   times the larger of their bodies, as in a mix-up of units. Collective.
+ * Check the distances between the two sides of all contact pairs. Collective.
+ * @throws InputError if the bounding boxes of two sides are farther apart than ten times the
+ *   diagonal of the larger body, as in a mix-up of units.
  */
 template <int dim>
 void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
-/// One line for each body whose 'Refine where' catches no cell. Collective.
+/// Return a warning for each body in which 'Refine where' refines no cell. Collective.
 template <int dim>
 std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
@@ -79,7 +81,7 @@ void print_faces(const scene::Scene &scene, std::ostream &out);
 /// Return the warnings about errors of the geometry of mesh files, one line each.
 std::vector<std::string> import_warnings(const scene::Scene &scene);
 
-/// One line for each body whose mesh file was changed on reading.
+/// Print a line for each change that was made to a mesh file when it was read.
 void print_import_notes(const scene::Scene &scene, std::ostream &out);
 } // namespace snug::app
 

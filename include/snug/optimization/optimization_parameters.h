@@ -27,7 +27,7 @@ inline Names names(Algorithm)
           {"MMA", "method of moving asymptotes (Svanberg, NLopt), for inequality constraints"}};
 }
 
-/// Entries of `subsection Optimization`.
+/// This struct holds the entries of `subsection Optimization`.
 struct OptimizationParameters
 {
   Algorithm   algorithm = Algorithm::SQP;
@@ -44,7 +44,8 @@ struct OptimizationParameters
   double       constraint_tolerance = 1e-8; ///< relative to the target
 
   void declare(Entries &entries);
-  /// Constraints have limits that can be read and that the algorithm takes.
+  /// Check that the constraints have limits that can be read and that the algorithm supports.
+  /// @throws InputError.
   void check(const SectionCheck &section) const;
 };
 } // namespace snug::optimization
