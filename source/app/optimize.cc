@@ -1,7 +1,7 @@
 #include <snug/app/adaptation.h>
 #include <snug/app/conclusion.h>
+#include <snug/app/cost_report.h>
 #include <snug/app/interrupt.h>
-#include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
 #include <snug/base/errors.h>
 
@@ -34,7 +34,7 @@ template <int dim>
 std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene, const bool restart)
 {
   auto mesh = timed_mesh<dim>(context, scene);
-  print_estimate(context, scene, *mesh, context.n_ranks(), false);
+  print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
   ShapeProblem<dim> problem(context, scene, std::move(mesh));
   problem.check_overlaps();
   if (!restart)

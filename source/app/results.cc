@@ -1,5 +1,5 @@
 #include <snug/accuracy/adaptation.h>
-#include <snug/app/mesh_summary.h>
+#include <snug/app/mesh_checks.h>
 #include <snug/app/offsets.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
@@ -66,7 +66,7 @@ void Results<dim>::print_header()
   for (const unsigned int c : positions)
     print_pairs(c, positions.size() > 1);
   warn(import_warnings(problem->scene));
-  warn(unrefined(problem->scene, *problem->mesh));
+  warn(refinement_warnings(problem->scene, *problem->mesh));
   warn(offset_warnings(*problem));
   for (const unsigned int c : positions)
     {

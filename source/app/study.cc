@@ -1,5 +1,7 @@
 #include <snug/app/adaptation.h>
+#include <snug/app/cost_report.h>
 #include <snug/app/interrupt.h>
+#include <snug/app/mesh_checks.h>
 #include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
 #include <snug/app/sensitivity.h>
@@ -133,20 +135,20 @@ template <int dim>
 void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned int ranks)
 {
   const auto mesh = timed_mesh<dim>(context, scene);
-  print_estimate(context, scene, *mesh, ranks > 0 ? ranks : context.n_ranks(), true);
+  print_cost_estimate(context, scene, *mesh, ranks > 0 ? ranks : context.n_ranks(), true);
 }
 
 template <int dim>
 void validate_in(RunContext &context, const scene::Scene &scene)
 {
   auto mesh = timed_mesh<dim>(context, scene);
-  print_estimate(context, scene, *mesh, context.n_ranks(), false);
+  print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_import_notes(scene, context.out());
-  print_faces(scene, context.out(Verbosity::quiet));
+  print_cad_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   for (const auto &line : import_warnings(scene))
     context.warn(line);
-  for (const auto &line : unrefined(scene, *mesh))
+  for (const auto &line : refinement_warnings(scene, *mesh))
     context.warn(line);
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
   for (const unsigned int c : problem.solver->positions())
@@ -186,13 +188,13 @@ std::string analyse(RunContext &context, const scene::Scene &scene, const bool a
     {
       adaptation.start();
       remove_earlier_results(context, scene);
-      failure_reason = adaptation.settle();
+      failure_reason = adaptation.reach_and_verify();
       adapted        = adaptation.release();
     }
   else
     {
       auto mesh = timed_mesh<dim>(context, scene);
-      print_estimate(context, scene, *mesh, context.n_ranks(), false);
+      print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
       adapted.problem = std::make_unique<ShapeProblem<dim>>(context, scene, std::move(mesh));
       adapted.problem->check_overlaps();
       remove_earlier_results(context, scene);

@@ -33,8 +33,8 @@ void Adaptation<dim>::resolve_data()
   const RunContext::Timer timer(context, "setup");
   while (true)
     {
-      const auto               mesh = build_mesh(scene, forest_with(refined), false);
-      auto                     next = refined;
+      const auto               mesh = build_mesh(scene, forest_with(last_refinement), false);
+      auto                     next = last_refinement;
       std::vector<std::string> names;
       for (const auto &body : scene.bodies)
         names.push_back(body.name);
@@ -42,10 +42,10 @@ void Adaptation<dim>::resolve_data()
         return accuracy::unresolved_data(*mesh, build_load_cases(scene, *mesh), names,
                                          missed_loads(scene));
       });
-      add(*mesh, refined, found.cells, next);
-      if (next != refined && fits(*mesh))
+      add_cells(*mesh, last_refinement, found.cells, next);
+      if (next != last_refinement && is_affordable(*mesh))
         {
-          refined = std::move(next);
+          last_refinement = std::move(next);
           continue;
         }
       for (const auto &line : found.lines)
@@ -58,7 +58,7 @@ void Adaptation<dim>::resolve_data()
 /// smaller for responses that are functions of pressures, because the roughness changes others
 /// little. Collective.
 template <int dim>
-double Adaptation<dim>::rough_part() const
+double Adaptation<dim>::allowed_roughness() const
 {
   double                              least  = 0.1;
   const auto                         &solver = *solved->problem->solver;
@@ -73,7 +73,7 @@ double Adaptation<dim>::rough_part() const
 
 #define SNUG_INSTANTIATE(dim)                      \
   template void   Adaptation<dim>::resolve_data(); \
-  template double Adaptation<dim>::rough_part() const;
+  template double Adaptation<dim>::allowed_roughness() const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

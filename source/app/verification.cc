@@ -25,10 +25,10 @@ std::string Adaptation<dim>::verify()
     return unbounded;
   Refinement everywhere = refined_everywhere();
   auto       mesh       = matched_mesh(everywhere);
-  if (!fits(*mesh))
+  if (!is_affordable(*mesh))
     return "the mesh for verification has " + std::to_string(unknowns(*mesh)) +
            " unknowns; increase 'Maximum unknowns', or set 'Verify' to false";
-  std::unique_ptr<Stage> fine;
+  std::unique_ptr<Adapted> fine;
   try
     {
       fine = solve_next(std::move(mesh));
@@ -62,9 +62,9 @@ std::string Adaptation<dim>::verify()
     }
   if (missed.empty())
     return "";
-  summary.met = false;
-  finer       = std::move(everywhere);
-  finer_stage = std::move(fine);
+  summary.met   = false;
+  finer         = std::move(everywhere);
+  finer_problem = std::move(fine);
   return "verification failed on the finer mesh (" + missed + "): relax 'Target'";
 }
 
@@ -84,7 +84,7 @@ bool Adaptation<dim>::is_to_be_verified() const
 
 /// Continue on the mesh for verification if the targets are missed there.
 template <int dim>
-std::string Adaptation<dim>::settle()
+std::string Adaptation<dim>::reach_and_verify()
 {
   std::string refused;
   for (unsigned int n = 0;; ++n)
@@ -98,17 +98,17 @@ std::string Adaptation<dim>::settle()
           return !unbounded.empty() ? unbounded : finer_is_enough ? "" : refused;
         }
       refused = verify();
-      if (refused.empty() || !finer_stage || n == most_finer)
+      if (refused.empty() || !finer_problem || n == most_finer)
         return refused;
       context.out() << refused.substr(0, refused.find(':')) << ": refining further" << std::endl;
-      refined = finer;
-      solved  = std::move(finer_stage);
+      last_refinement = finer;
+      solved          = std::move(finer_problem);
     }
 }
 
-#define SNUG_INSTANTIATE(dim)                     \
-  template std::string Adaptation<dim>::verify(); \
-  template std::string Adaptation<dim>::settle(); \
+#define SNUG_INSTANTIATE(dim)                               \
+  template std::string Adaptation<dim>::verify();           \
+  template std::string Adaptation<dim>::reach_and_verify(); \
   template bool        Adaptation<dim>::is_to_be_verified() const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

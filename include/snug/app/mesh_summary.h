@@ -1,8 +1,7 @@
 #ifndef snug_app_mesh_summary_h
 #define snug_app_mesh_summary_h
 
-#include <snug/base/run_context.h>
-#include <snug/mesh/body_mesh.h>
+#include <snug/app/bounding_box.h>
 #include <snug/scene/scene.h>
 
 #include <iosfwd>
@@ -12,17 +11,11 @@ namespace snug::app {
 template <int dim>
 struct MeshSummary
 {
-  /// Bounding box [length].
-  struct Box
-  {
-    dealii::Point<dim> lower, upper;
-  };
-
   struct Boundary
   {
-    std::string name;
-    double      area = 0.; ///< [length^2]
-    Box         box;
+    std::string      name;
+    double           area = 0.; ///< [length^2]
+    BoundingBox<dim> box;
   };
 
   /// This struct describes a set of cells that can have its own material.
@@ -38,7 +31,7 @@ struct MeshSummary
     std::string           name;
     unsigned long         n_cells = 0;
     std::vector<Region>   regions; ///< may be empty, see BodyGeometry
-    Box                   box;
+    BoundingBox<dim>      box;
     std::vector<Boundary> boundaries;
   };
 
@@ -53,36 +46,6 @@ MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<
 /// boundary.
 template <int dim>
 void print(const MeshSummary<dim> &summary, std::ostream &out);
-
-/**
- * Check the distances between the two sides of all contact pairs. Collective.
- * @throws InputError if the bounding boxes of two sides are farther apart than ten times the
- *   diagonal of the larger body, as in a mix-up of units.
- */
-template <int dim>
-void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
-
-/// Return a warning for each body in which 'Refine where' refines no cell. Collective.
-template <int dim>
-std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
-
-/// Print the estimated cost of a run with @p mesh on @p n_ranks ranks: two lines, or a table of the
-/// @p stages. Collective.
-template <int dim>
-void print_estimate(RunContext                &context,
-                    const scene::Scene        &scene,
-                    const mesh::BodyMesh<dim> &mesh,
-                    unsigned int               n_ranks,
-                    bool                       stages);
-
-/// Print the faces of the CAD files of all bodies.
-void print_faces(const scene::Scene &scene, std::ostream &out);
-
-/// Return the warnings about errors of the geometry of mesh files, one line each.
-std::vector<std::string> import_warnings(const scene::Scene &scene);
-
-/// Print a line for each change that was made to a mesh file when it was read.
-void print_import_notes(const scene::Scene &scene, std::ostream &out);
 } // namespace snug::app
 
 #endif
