@@ -21,14 +21,14 @@ template <int dim>
 void Adaptation<dim>::start(const Design &design, const Refinement &refinement)
 {
   solved.reset();
-  finer_stage.reset();
+  finer_problem.reset();
   finer           = {};
   finer_is_enough = true;
-  n_doubtful      = 0;
+  n_underresolved = 0;
   summary         = {};
-  unresolved.clear();
-  at     = design;
-  solved = stage(first_mesh(refinement), first_tolerance(refinement));
+  unresolved_gaps.clear();
+  given_design = design;
+  solved       = make_problem(first_mesh(refinement), first_tolerance(refinement));
   if (refinement.empty())
     solved->problem->check_overlaps();
   set_demands();
@@ -40,17 +40,18 @@ void Adaptation<dim>::start(const Design &design, const Refinement &refinement)
 template <int dim>
 typename Adaptation<dim>::Mesh Adaptation<dim>::first_mesh(const Refinement &refinement)
 {
-  const bool is_known = refinement.empty() && first;
-  refined             = is_known ? *first : refinement;
+  const bool is_known = refinement.empty() && first_refinement;
+  last_refinement     = is_known ? *first_refinement : refinement;
   if (!is_known)
     resolve_data();
-  auto mesh = matched_mesh(refined);
+  auto mesh = matched_mesh(last_refinement);
   if (refinement.empty())
-    first = refined;
+    first_refinement = last_refinement;
   return mesh;
 }
 
-/// Cells that were refined for the targets have errors of the size of the targets.
+/// Return the solver tolerance on the first mesh. Cells that were refined for the targets have
+/// errors of the size of the targets, from which the tolerance then follows.
 template <int dim>
 double Adaptation<dim>::first_tolerance(const Refinement &refinement) const
 {
@@ -58,7 +59,7 @@ double Adaptation<dim>::first_tolerance(const Refinement &refinement) const
   if (!refinement.empty())
     for (const auto &target : scene.accuracy.targets)
       result = std::min(result, accuracy::step_tolerance(accuracy::read_target(target.second).value,
-                                                         false, least()));
+                                                         false, minimum_tolerance()));
   return result;
 }
 
@@ -77,9 +78,9 @@ void Adaptation<dim>::set_demands()
 }
 
 template <int dim>
-typename Adaptation<dim>::Design Adaptation<dim>::design(const Stage &stage) const
+typename Adaptation<dim>::Design Adaptation<dim>::design(const Adapted &adapted) const
 {
-  return at.empty() ? stage.problem->shapes->start() : at;
+  return given_design.empty() ? adapted.problem->shapes->start() : given_design;
 }
 
 template <int dim>
@@ -115,13 +116,13 @@ const mesh::Forest<dim> &Adaptation<dim>::forest_with(const Refinement &refineme
   if (!forest)
     {
       forest = build_forest<dim>(scene, context.communicator());
-      in_forest.clear();
+      forest_cells.clear();
     }
   const auto cells = refinement.cells<dim>(forest->coarse().places);
-  if (!std::includes(cells.begin(), cells.end(), in_forest.begin(), in_forest.end()))
+  if (!std::includes(cells.begin(), cells.end(), forest_cells.begin(), forest_cells.end()))
     forest = build_forest<dim>(scene, context.communicator());
   forest->refine(cells);
-  in_forest = cells;
+  forest_cells = cells;
   return *forest;
 }
 
@@ -131,7 +132,7 @@ const mesh::Forest<dim> &Adaptation<dim>::forest_with(const Refinement &refineme
 template <int dim>
 typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(Refinement &refinement)
 {
-  began = context.seconds();
+  mesh_start_time = context.seconds();
   const RunContext::Timer timer(context, "setup");
   for (unsigned int pass = 0; pass < most_passes; ++pass)
     {
@@ -142,11 +143,11 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(Refinement &refinem
       const faces::FaceShape<dim> shape(mesh->degree());
       for (const auto &joined :
            contact::join_pairs(surface, shape, pairs, surface.reference_positions()))
-        add(*mesh, given,
-            mesh::gather_cells(*mesh, surface.cells_of(
-                                        contact::coarse_faces(surface, shape, joined.pair,
-                                                              surface.reference_positions()))),
-            refinement, pass == 0);
+        add_cells(*mesh, given,
+                  mesh::gather_cells(
+                    *mesh, surface.cells_of(contact::coarse_faces(surface, shape, joined.pair,
+                                                                  surface.reference_positions()))),
+                  refinement, pass == 0);
       if (refinement == given)
         break;
     }
@@ -155,73 +156,78 @@ typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(Refinement &refinem
 
 /// Return the problem on a mesh, with a contact search at the design. Collective.
 template <int dim>
-std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::stage(Mesh mesh, const double tolerance) const
+std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::make_problem(Mesh         mesh,
+                                                                   const double tolerance) const
 {
-  auto result = std::make_unique<Stage>(
-    Stage{std::make_unique<ShapeProblem<dim>>(context, scene, std::move(mesh))});
+  auto result = std::make_unique<Adapted>(
+    Adapted{std::make_unique<ShapeProblem<dim>>(context, scene, std::move(mesh))});
   result->problem->solver->set_tolerance(tolerance);
-  if (!at.empty() && at != result->problem->shapes->start())
-    result->problem->solver->pair(result->problem->positions(at));
+  if (!given_design.empty() && given_design != result->problem->shapes->start())
+    result->problem->solver->pair(result->problem->positions(given_design));
   return result;
 }
 
-/// States and the values of the targets. Collective.
+/// Solve the states of an adapted problem from @p starts, and measure the responses of the targets.
+/// Collective.
 template <int dim>
-void Adaptation<dim>::solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const
+void Adaptation<dim>::solve(Adapted &adapted, const std::vector<qp::WarmStart> &starts) const
 {
-  auto &problem = *stage.problem;
+  auto &problem = *adapted.problem;
   context.progress("solving the contact problem ...");
-  stage.states = problem.solve(design(stage), starts);
+  adapted.states = problem.solve(design(adapted), starts);
   for (const auto &target : scene.accuracy.targets)
-    stage.responses.push_back(problem.make_response(target.first));
-  measure(stage);
+    adapted.responses.push_back(problem.make_response(target.first));
+  measure(adapted);
 }
 
-/// The values of the targets, without errors. Collective.
+/// Set the values of the targets, without errors. Collective.
 template <int dim>
-void Adaptation<dim>::measure(Stage &stage) const
+void Adaptation<dim>::measure(Adapted &adapted) const
 {
-  stage.measured.clear();
+  adapted.measured.clear();
   for (const auto &demand : demands)
-    stage.measured.push_back(
-      {stage.responses[demand.place]->value(*stage.problem->solver, stage.states[demand.load_case]),
+    adapted.measured.push_back(
+      {adapted.responses[demand.place]->value(*adapted.problem->solver,
+                                              adapted.states[demand.load_case]),
        std::numeric_limits<double>::infinity()});
 }
 
-/// The errors of a mesh on which they have a meaning; states that are not solved well enough for
-/// it are solved on. Collective.
+/// Set the values of the targets with their estimated errors. The mesh must resolve the contact,
+/// otherwise the estimates have no meaning. States that are not accurate enough for an estimate are
+/// solved to smaller tolerances. Collective. @throws SolveError.
 template <int dim>
-void Adaptation<dim>::estimate(Stage &stage) const
+void Adaptation<dim>::estimate(Adapted &adapted) const
 {
   const RunContext::Timer                      timer(context, "accuracy");
   const auto                                  &targets = scene.accuracy.targets;
   std::vector<const response::Response<dim> *> responses;
-  for (const auto &response : stage.responses)
+  for (const auto &response : adapted.responses)
     responses.push_back(response.get());
-  stage.errors.clear();
-  for (auto &state : stage.states)
+  adapted.errors.clear();
+  for (auto &state : adapted.states)
     {
       std::optional<state::ContactState<dim>> solved_on;
-      auto estimates = accuracy::estimate(*stage.problem->solver, state, responses,
+      auto estimates = accuracy::estimate(*adapted.problem->solver, state, responses,
                                           scene.gradient.solves, solved_on);
       if (solved_on)
         state = std::move(*solved_on);
       MeshError error{std::move(estimates.energy), {}};
       for (unsigned int j = 0; j < targets.size(); ++j)
         error.responses.emplace_back(targets[j].first, std::move(estimates.responses[j]));
-      stage.errors.push_back(std::move(error));
+      adapted.errors.push_back(std::move(error));
     }
-  measure(stage);
+  measure(adapted);
   for (unsigned int d = 0; d < demands.size(); ++d)
-    stage.measured[d].error =
-      stage.errors[demands[d].load_case].responses[demands[d].place].second.error();
+    adapted.measured[d].error =
+      adapted.errors[demands[d].load_case].responses[demands[d].place].second.error();
 }
 
-/// Another mesh, solved from the states of the last. Collective.
+/// Return the problem on another mesh, solved from the states on the last mesh, or cold if that
+/// fails. Collective. @throws SolveError.
 template <int dim>
 std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::solve_next(Mesh mesh)
 {
-  auto                       next = stage(std::move(mesh), next_tolerance());
+  auto                       next = make_problem(std::move(mesh), next_tolerance());
   std::vector<qp::WarmStart> starts;
   for (const auto &state : solved->states)
     starts.push_back(accuracy::transferred(*solved->problem->solver, state, *next->problem->solver,
@@ -232,12 +238,14 @@ std::unique_ptr<AdaptedProblem<dim>> Adaptation<dim>::solve_next(Mesh mesh)
     }
   catch (const SolveError &)
     {
-      solve(*next, {}); // the forces of a coarse mesh may lead astray
+      // The forces of a coarse mesh may be a bad start.
+      solve(*next, {});
     }
   return next;
 }
 
-/// Without loads there is rounding, of which nothing can be estimated.
+/// Return whether all states are at rest. Without loads, states are round-off, of which nothing can
+/// be estimated.
 template <int dim>
 bool Adaptation<dim>::is_at_rest() const
 {
@@ -251,9 +259,9 @@ bool Adaptation<dim>::is_met(const unsigned int demand) const
   return is_at_rest() || estimate.error <= demands[demand].allowed(estimate);
 }
 
-/// The user's.
+/// Return the minimum tolerance of states: that of the scene, or else the default of the solver.
 template <int dim>
-double Adaptation<dim>::least() const
+double Adaptation<dim>::minimum_tolerance() const
 {
   return scene.state_tolerance.value_or(qp::SolverParameters().relative_tolerance);
 }
@@ -261,31 +269,33 @@ double Adaptation<dim>::least() const
 template <int dim>
 double Adaptation<dim>::next_tolerance() const
 {
-  double tolerance = std::max(least(), accuracy::first_tolerance);
+  double tolerance = std::max(minimum_tolerance(), accuracy::first_tolerance);
   for (unsigned int d = 0; d < demands.size(); ++d)
-    tolerance = std::min(tolerance, demands[d].tolerance(solved->measured[d], least()));
+    tolerance = std::min(tolerance, demands[d].tolerance(solved->measured[d], minimum_tolerance()));
   return tolerance;
 }
 
-/// Return the maximum tolerance of all states of a stage.
+/// Return the maximum tolerance of all states of an adapted problem.
 template <int dim>
-double Adaptation<dim>::tolerance(const Stage &stage)
+double Adaptation<dim>::tolerance(const Adapted &adapted)
 {
   double largest = 0.;
-  for (const auto &state : stage.states)
+  for (const auto &state : adapted.states)
     largest = std::max(largest, state.tolerance);
   return largest;
 }
 
-/// The states are known less well than the errors, as where the first mesh is better than needed.
+/// Return whether the states are less accurate than their errors require, as they are if the first
+/// mesh is finer than needed.
 template <int dim>
-bool Adaptation<dim>::is_rough() const
+bool Adaptation<dim>::is_solver_too_inexact() const
 {
   return tolerance(*solved) > 10. * next_tolerance();
 }
 
+/// Return whether a mesh has at most 'Maximum unknowns'.
 template <int dim>
-bool Adaptation<dim>::fits(const mesh::BodyMesh<dim> &mesh) const
+bool Adaptation<dim>::is_affordable(const mesh::BodyMesh<dim> &mesh) const
 {
   return unknowns(mesh) <= scene.accuracy.maximum_unknowns;
 }
@@ -297,14 +307,14 @@ std::string Adaptation<dim>::reach(const double factor)
     demand.factor = factor;
   while (true)
     {
-      Refinement next     = refined;
-      const bool doubtful = !is_at_rest() && add_doubtful(next);
-      n_doubtful          = doubtful ? n_doubtful + 1 : 0;
+      Refinement next             = last_refinement;
+      const bool is_underresolved = !is_at_rest() && add_underresolved(next);
+      n_underresolved             = is_underresolved ? n_underresolved + 1 : 0;
       std::string why;
-      if (!doubtful)
+      if (!is_underresolved)
         {
           estimate(*solved);
-          why = failure();
+          why = failure_reason();
         }
       else
         for (unsigned int d = 0; d < demands.size(); ++d)
@@ -312,44 +322,44 @@ std::string Adaptation<dim>::reach(const double factor)
       report(*solved);
       if (!why.empty())
         return why;
-      if (!doubtful)
+      if (!is_underresolved)
         {
           add_marked(next);
           summary.met = true;
           for (unsigned int d = 0; d < demands.size(); ++d)
             summary.met = summary.met && is_met(d);
-          if (summary.met && !is_rough())
+          if (summary.met && !is_solver_too_inexact())
             {
-              for (const auto &line : unresolved)
+              for (const auto &line : unresolved_gaps)
                 context.warn(line);
               return "";
             }
         }
-      else if (n_doubtful > 1)
-        add_marked_beside(next);
-      if (next == refined && !is_rough())
-        return missed("increase 'Maximum levels', or relax 'Target'");
-      why = go_on(next);
+      else if (n_underresolved > 1)
+        add_marked_despite_narrow_contact(next);
+      if (next == last_refinement && !is_solver_too_inexact())
+        return missed_targets("increase 'Maximum levels', or relax 'Target'");
+      why = solve_refined(next);
       if (!why.empty())
-        return missed(why);
+        return missed_targets(why);
     }
 }
 
 /// Solve on the mesh with the refinement @p next. Return why there is no solution; empty: there is
 /// one. Collective.
 template <int dim>
-std::string Adaptation<dim>::go_on(Refinement &next)
+std::string Adaptation<dim>::solve_refined(Refinement &next)
 {
   try
     {
       auto mesh = matched_mesh(next);
-      if (!fits(*mesh))
+      if (!is_affordable(*mesh))
         return "the next mesh has " + std::to_string(unknowns(*mesh)) +
                " unknowns: increase 'Maximum unknowns', or relax 'Target'";
       // The mesh that is solved from goes only when the next one is solved.
-      auto stage = solve_next(std::move(mesh));
-      solved     = std::move(stage);
-      refined    = next;
+      auto adapted    = solve_next(std::move(mesh));
+      solved          = std::move(adapted);
+      last_refinement = next;
       return "";
     }
   // The scene is right, as the meshes before were solved.

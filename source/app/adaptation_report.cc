@@ -15,7 +15,7 @@ const double sure_tolerance = 1e-6;
 /// Maximum part of a target's response that may come from a sharp edge.
 const double small_part = 0.5;
 
-/// The least of all load cases.
+/// Return the minimum number of faces across a contact in all load cases; infinite: no contact.
 template <int dim>
 double contact_faces(const std::vector<state::ContactState<dim>> &states)
 {
@@ -33,14 +33,14 @@ unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &mesh)
 }
 
 template <int dim>
-void Adaptation<dim>::report(const Stage &stage)
+void Adaptation<dim>::report(const Adapted &adapted)
 {
   io::Summary::AdaptedMesh mesh;
-  mesh.dofs          = unknowns(*stage.problem->mesh);
-  mesh.contact_faces = contact_faces(stage.states);
-  mesh.tolerance     = tolerance(stage);
-  mesh.seconds       = context.seconds() - began;
-  for (const auto &state : stage.states)
+  mesh.dofs          = unknowns(*adapted.problem->mesh);
+  mesh.contact_faces = contact_faces(adapted.states);
+  mesh.tolerance     = tolerance(adapted);
+  mesh.seconds       = context.seconds() - mesh_start_time;
+  for (const auto &state : adapted.states)
     mesh.f_mults += state.f_mults;
   auto &out = context.out();
   out << "mesh " << summary.meshes.size() + 1 << ": " << mesh.dofs << " unknowns";
@@ -48,7 +48,7 @@ void Adaptation<dim>::report(const Stage &stage)
     out << ", faces across the contact: " << std::round(10. * mesh.contact_faces) / 10.;
   for (unsigned int d = 0; d < demands.size(); ++d)
     {
-      const auto &estimate = stage.measured[d];
+      const auto &estimate = adapted.measured[d];
       mesh.responses.push_back({demands[d].name, estimate.value, estimate.error});
       out << ", " << accuracy::text_of(demands[d].name, estimate);
     }
@@ -61,10 +61,10 @@ void Adaptation<dim>::report(const Stage &stage)
 /// algebraic error, which is no discretization error: the result is only valid for states that are
 /// solved to a tight tolerance. Collective.
 template <int dim>
-std::string Adaptation<dim>::failure()
+std::string Adaptation<dim>::failure_reason()
 {
   const auto before = demands;
-  auto       why    = noted();
+  auto       why    = record_errors();
   if (why.empty() || tolerance(*solved) <= sure_tolerance)
     return why;
   try
@@ -78,11 +78,13 @@ std::string Adaptation<dim>::failure()
     }
   estimate(*solved);
   demands = before;
-  return noted();
+  return record_errors();
 }
 
+/// Record the values and the errors of the last mesh in the demands. Return the first reason why no
+/// mesh can meet a demand; empty: there is none.
 template <int dim>
-std::string Adaptation<dim>::noted()
+std::string Adaptation<dim>::record_errors()
 {
   std::string first;
   for (unsigned int d = 0; d < demands.size(); ++d)
@@ -93,8 +95,9 @@ std::string Adaptation<dim>::noted()
   return first;
 }
 
+/// Return the message that targets are not met, with their errors and @p advice.
 template <int dim>
-std::string Adaptation<dim>::missed(const std::string &advice) const
+std::string Adaptation<dim>::missed_targets(const std::string &advice) const
 {
   std::string text = "targets are not met:";
   for (unsigned int d = 0; d < demands.size(); ++d)
@@ -104,11 +107,11 @@ std::string Adaptation<dim>::missed(const std::string &advice) const
          (reads_pressure() && contact_faces(solved->states) < scene.accuracy.contact_faces
             ? ", and a contact has fewer than " + to_text(scene.accuracy.contact_faces) + " faces"
             : "") +
-         (unresolved.empty() ? "" : "; " + unresolved.front()) + "; " + advice;
+         (unresolved_gaps.empty() ? "" : "; " + unresolved_gaps.front()) + "; " + advice;
 }
 
-/// The part of a response that the contact forces at an edge make: its change without them.
-/// Collective.
+/// Return the part of a response that is due to the contact forces at an edge: its change without
+/// these forces. Collective.
 template <int dim>
 double part_of_edge(const response::Response<dim>  &response,
                     const state::StateSolver<dim>  &solver,
@@ -121,9 +124,10 @@ double part_of_edge(const response::Response<dim>  &response,
   return std::abs(response.value(solver, state) - response.value(solver, without));
 }
 
-/// Targets of pressures may have no limit as cells get smaller, though their errors are small on
-/// each mesh. Where the part of a sharp edge is small beside the target, the value holds away from
-/// the edge, and a warning says so. @return why a target cannot be met; empty: all can. Collective.
+/// Return why a sharp edge prevents a target from being met; empty: no edge does. Pressures at a
+/// sharp edge may have no limit as cells get smaller, although their errors are small on each mesh.
+/// If the part of the edge is small compared with the target, a warning says that the value holds
+/// away from the edge. Collective.
 template <int dim>
 std::string Adaptation<dim>::unbounded_at_edge()
 {
@@ -151,11 +155,11 @@ std::string Adaptation<dim>::unbounded_at_edge()
   return "";
 }
 
-#define SNUG_INSTANTIATE(dim)                                                    \
-  template unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &); \
-  template void          Adaptation<dim>::report(const Stage &);                 \
-  template std::string   Adaptation<dim>::failure();                             \
-  template std::string   Adaptation<dim>::missed(const std::string &) const;     \
+#define SNUG_INSTANTIATE(dim)                                                        \
+  template unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &);     \
+  template void          Adaptation<dim>::report(const Adapted &);                   \
+  template std::string   Adaptation<dim>::failure_reason();                          \
+  template std::string   Adaptation<dim>::missed_targets(const std::string &) const; \
   template std::string   Adaptation<dim>::unbounded_at_edge();
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

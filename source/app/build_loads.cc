@@ -21,7 +21,7 @@ dealii::Tensor<1, dim> to_tensor(const std::vector<double> &values)
   return tensor;
 }
 
-/// A formula of the reference position as a function.
+/// Return a formula of the reference position as a function.
 template <int dim>
 ScalarFunction<dim> function_of(const std::string &entry, const std::string &text)
 {
@@ -44,7 +44,7 @@ VectorFunction<dim> function_of(const std::string              &entry,
   };
 }
 
-/// a + b; an empty function is zero.
+/// Return a + b, where an empty @p a is zero.
 template <typename Function>
 Function sum(const Function &a, const Function &b)
 {
@@ -53,7 +53,8 @@ Function sum(const Function &a, const Function &b)
   return [a, b](const auto &x) { return a(x) + b(x); };
 }
 
-/// A moment has one number in the plane: that about the normal axis.
+/// Return a moment as a resultant. In the plane, a moment has one number: that about the normal
+/// axis.
 template <int dim>
 elasticity::Resultant<dim> resultant_moment(const std::vector<double> &numbers)
 {
@@ -63,7 +64,7 @@ elasticity::Resultant<dim> resultant_moment(const std::vector<double> &numbers)
   return resultant;
 }
 
-/// Bodies of revolution carry forces along their axis alone.
+/// Throw InputError if a body of revolution has a @p resultant other than a force along its axis.
 template <int dim>
 void require_axial(const mesh::BodyMesh<dim>        &mesh,
                    const std::string                &entry,
@@ -77,12 +78,13 @@ void require_axial(const mesh::BodyMesh<dim>        &mesh,
                     "its axis y only, and no moment");
 }
 
-/// Adds the loads of one section to a load case.
+/// This class adds the loads of one section of the scene to a load case.
 template <int dim>
 class LoadBuilder
 {
 public:
-  /// Keys of the loads, after @p prefix, are "body.boundary".
+  /// Set the section for messages, and the @p prefix that completes the keys of loads to
+  /// "body.boundary".
   LoadBuilder(const scene::Scene        &scene,
               const mesh::BodyMesh<dim> &mesh,
               const std::string         &section,
@@ -233,7 +235,7 @@ void turn_loads_back(state::LoadCase<dim> &load_case)
     }
 }
 
-/// The index of a held component among @p supports, added if it is new.
+/// Return the index of a held component among @p supports. The component is added if it is new.
 template <int dim>
 unsigned int index_of(const supports::Support<dim>        &wanted,
                       std::vector<supports::Support<dim>> &supports)

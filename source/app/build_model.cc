@@ -25,8 +25,9 @@ contact::Pair find_pair(const scene::Scene                      &scene,
   return pair;
 }
 
-/// An error e of the state changes the potential energy, which it makes least, by e^2, and all else
-/// by e: errors above the optimizer's tolerance would keep it from ever meeting that.
+/// Return the relative tolerance of states. An error e of the state changes the potential energy,
+/// which the state minimizes, by e^2, and other responses by e. Errors of such responses above the
+/// tolerance of the optimizer would keep the optimizer from meeting its tolerance.
 template <int dim>
 double state_tolerance(const scene::Scene &scene)
 {
@@ -45,7 +46,7 @@ double state_tolerance(const scene::Scene &scene)
   return sharp ? std::clamp(scene.optimization.objective_tolerance, least, usual) : usual;
 }
 
-/// "body.boundary" of the faces that are held along their normal.
+/// Return "body.boundary" of the faces that are held along their normals.
 std::vector<std::string> held_along_normals(const scene::Scene &scene)
 {
   const unsigned int       dim = scene.dimension; // the component of the normal
@@ -69,10 +70,10 @@ std::vector<std::string> held_along_normals(const scene::Scene &scene)
 }
 } // namespace
 
-/// True surfaces are asked for where contact, normal supports and shaped faces are, and by
-/// estimates for responses.
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene)
 {
+  // True surfaces are needed where contact, normal supports and shaped faces are. Estimates of
+  // responses need the true surfaces of all curved faces.
   auto faces = held_along_normals(scene);
   for (const auto &pair : scene.contact.pairs)
     for (const auto &side : {pair.slave, pair.master})

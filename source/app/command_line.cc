@@ -6,7 +6,7 @@
 
 namespace snug::app {
 namespace {
-/// Reads the arguments one by one.
+/// This class reads the arguments one by one.
 class ArgumentReader
 {
 public:

@@ -37,7 +37,7 @@ void print_end(const ShapeProblem<dim>                  &problem,
 
 /// Return the values of the design found after a new contact search, or nothing if the states are
 /// those of a new contact search to round-off, or if there is no state, which is a warning.
-/// Ends all states. Collective.
+/// All states become invalid. Collective.
 template <int dim>
 std::optional<DesignValues>
 values_paired_anew(Search<dim> &search, const OptimizationResult &result, const bool is_paired)
@@ -61,8 +61,8 @@ values_paired_anew(Search<dim> &search, const OptimizationResult &result, const 
     }
 }
 
-/// The design found is the best for the contact search of its optimization. Report its values after
-/// a new contact search. Ends all states. Collective.
+/// Report the values of the design found after a new contact search, because the design is the best
+/// one only for the contact search of its optimization. All states become invalid. Collective.
 template <int dim>
 void report_paired_anew(Search<dim> &search, const OptimizationResult &result, const bool is_paired)
 {

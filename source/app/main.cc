@@ -18,8 +18,8 @@
 namespace {
 using namespace snug;
 
-/// Rank of this process as its launcher (Open MPI, MPICH, Slurm) says, to
-/// print what needs no MPI only once under mpirun.
+/// Return whether this process has rank 0 according to its launcher (Open MPI, MPICH, Slurm), or
+/// has no launcher. Output that needs no MPI is then printed only once under mpirun.
 bool is_first_process()
 {
   for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
@@ -28,17 +28,18 @@ bool is_first_process()
   return true;
 }
 
-/// Arrays of a geometry go and come again with the next one: what they took stays with the process,
-/// or each page would be cleared and mapped anew, a tenth of the seconds of a large state. Larger
-/// ones, which fit nowhere, still go back.
+/// Keep freed memory in the process, because the arrays of one geometry are freed and allocated
+/// again for the next geometry. Otherwise their pages would be cleared and mapped anew, which takes
+/// a tenth of the time of a large state. Blocks of more than 32 MiB are still returned to the
+/// system.
 void keep_freed_memory()
 {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
-/// By the environment variable: PETSc asks for some of them when it begins. The last one of a name
-/// holds.
+/// Pass options to PETSc by its environment variable, because PETSc reads some options when it is
+/// initialized. If several options have the same name, the last one holds.
 void pass_to_petsc(const std::string &options)
 {
   if (options.empty())
@@ -48,7 +49,8 @@ void pass_to_petsc(const std::string &options)
   setenv("PETSC_OPTIONS", all.c_str(), 1);
 }
 
-/// Print what --help, --version and --print-parameters ask for.
+/// Print what --help, --version and --print-parameters ask for. Return whether one of them was
+/// given.
 bool answer(const app::Options &options, std::ostream &out)
 {
   if (options.help)

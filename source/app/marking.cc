@@ -30,11 +30,11 @@ std::vector<dealii::Point<3>> places_in_file(const geometry::BodyMeshParameters 
 /// Add the cells @p marked of the mesh that was made last, which has the refinement @p of_mesh.
 /// Elements of CAD files are halved at the centres of these cells.
 template <int dim>
-void Adaptation<dim>::add(const mesh::BodyMesh<dim>         &mesh,
-                          const Refinement                  &of_mesh,
-                          const std::vector<dealii::CellId> &marked,
-                          Refinement                        &to,
-                          const bool                         mesh_files_anew) const
+void Adaptation<dim>::add_cells(const mesh::BodyMesh<dim>         &mesh,
+                                const Refinement                  &of_mesh,
+                                const std::vector<dealii::CellId> &marked,
+                                Refinement                        &to,
+                                const bool                         mesh_files_anew) const
 {
   const auto                                         &coarse = mesh.coarse_cells();
   std::map<unsigned int, std::vector<dealii::CellId>> of_files;
@@ -57,11 +57,11 @@ void Adaptation<dim>::add(const mesh::BodyMesh<dim>         &mesh,
 template <int dim>
 Refinement Adaptation<dim>::refined_everywhere() const
 {
-  Refinement  result = refined;
+  Refinement  result = last_refinement;
   const auto &mesh   = *solved->problem->mesh;
-  add(mesh, refined, mesh::all_cells(mesh), result, false);
+  add_cells(mesh, last_refinement, mesh::all_cells(mesh), result, false);
   for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-    if (const auto n = refined.n_halvings(b);
+    if (const auto n = last_refinement.n_halvings(b);
         scene.bodies[b].mesh.source == geometry::Source::cad && n < scene.accuracy.maximum_levels)
       result.halve(b, n, {});
   return result;
@@ -74,32 +74,33 @@ bool Adaptation<dim>::reads_pressure() const
                      [](const auto &demand) { return demand.reads_pressure; });
 }
 
-/// Cells of contacts of too few faces, if a response reads their pressure, of those all but closed,
-/// and of gaps that have more than these. @return whether there are any. Collective.
+/// Add the cells of contacts with too few faces, if a target reads pressures, of almost closed gaps
+/// of pairs without a force, and of gaps whose roughness the faces do not resolve. Return whether
+/// there are any. Collective.
 template <int dim>
-bool Adaptation<dim>::add_doubtful(Refinement &to)
+bool Adaptation<dim>::add_underresolved(Refinement &to)
 {
-  unresolved.clear();
-  const auto &solver   = *solved->problem->solver;
-  bool        doubtful = false;
+  unresolved_gaps.clear();
+  const auto &solver           = *solved->problem->solver;
+  bool        is_underresolved = false;
   for (const auto &state : solved->states)
     {
       const auto faces =
         accuracy::underresolved_contact(solver, state,
                                         reads_pressure() ? scene.accuracy.contact_faces : 0.);
-      doubtful = doubtful || !faces.empty();
-      add(solver.mesh(), refined,
-          mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), to);
-      auto       found  = accuracy::unresolved_gaps(solver, state, rough_part());
+      is_underresolved = is_underresolved || !faces.empty();
+      add_cells(solver.mesh(), last_refinement,
+                mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), to);
+      auto       found  = accuracy::unresolved_gaps(solver, state, allowed_roughness());
       const auto before = to;
-      add(solver.mesh(), refined, found.cells, to);
-      doubtful = doubtful || to != before;
-      std::move(found.lines.begin(), found.lines.end(), std::back_inserter(unresolved));
+      add_cells(solver.mesh(), last_refinement, found.cells, to);
+      is_underresolved = is_underresolved || to != before;
+      std::move(found.lines.begin(), found.lines.end(), std::back_inserter(unresolved_gaps));
     }
-  return doubtful;
+  return is_underresolved;
 }
 
-/// Cells of the demands that are not met. Collective.
+/// Add the cells that the estimates mark for the demands that are not met. Collective.
 template <int dim>
 void Adaptation<dim>::add_marked(Refinement &to) const
 {
@@ -119,7 +120,7 @@ void Adaptation<dim>::add_marked(Refinement &to) const
         for (unsigned int cell = 0; cell < ids.size(); ++cell)
           if (flags[cell])
             marked.push_back(ids[cell]);
-        add(mesh, refined, marked, to);
+        add_cells(mesh, last_refinement, marked, to);
       }
 }
 
@@ -127,7 +128,7 @@ void Adaptation<dim>::add_marked(Refinement &to) const
 /// estimates. Otherwise a contact that stays narrow, as on a slender body in bending, would stop
 /// the refinement. Collective.
 template <int dim>
-void Adaptation<dim>::add_marked_beside(Refinement &to)
+void Adaptation<dim>::add_marked_despite_narrow_contact(Refinement &to)
 {
   const auto measured = solved->measured;
   try
@@ -143,14 +144,14 @@ void Adaptation<dim>::add_marked_beside(Refinement &to)
   solved->measured = measured;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                 \
-  template void Adaptation<dim>::add(const mesh::BodyMesh<dim> &, const Refinement &,         \
-                                     const std::vector<dealii::CellId> &, Refinement &, bool) \
-    const;                                                                                    \
-  template bool       Adaptation<dim>::reads_pressure() const;                                \
-  template bool       Adaptation<dim>::add_doubtful(Refinement &);                            \
-  template void       Adaptation<dim>::add_marked(Refinement &) const;                        \
-  template void       Adaptation<dim>::add_marked_beside(Refinement &);                       \
+#define SNUG_INSTANTIATE(dim)                                                                       \
+  template void       Adaptation<dim>::add_cells(const mesh::BodyMesh<dim> &, const Refinement &,   \
+                                                 const std::vector<dealii::CellId> &, Refinement &, \
+                                                 bool) const;                                       \
+  template bool       Adaptation<dim>::reads_pressure() const;                                      \
+  template bool       Adaptation<dim>::add_underresolved(Refinement &);                             \
+  template void       Adaptation<dim>::add_marked(Refinement &) const;                              \
+  template void       Adaptation<dim>::add_marked_despite_narrow_contact(Refinement &);             \
   template Refinement Adaptation<dim>::refined_everywhere() const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

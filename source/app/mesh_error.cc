@@ -7,7 +7,7 @@
 
 namespace snug::app {
 namespace {
-/// The objective and the responses of a scene, by name.
+/// Return the objective and the responses of a scene with their names.
 template <int dim>
 std::vector<std::pair<std::string, const response::Response<dim> *>>
 measured(const ShapeProblem<dim> &problem)

@@ -1,66 +1,17 @@
-#include <snug/advice/cost.h>
-#include <snug/app/build_model.h>
 #include <snug/app/mesh_summary.h>
 #include <snug/elasticity/element.h>
 #include <snug/faces/tributary.h>
-#include <snug/geometry/imported_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
 #include <ostream>
 #include <sstream>
 
 namespace snug::app {
 namespace {
-template <int dim>
-using Box = typename MeshSummary<dim>::Box;
-
-/// The box of @p points of all ranks. Collective.
-template <int dim>
-Box<dim> box_of(const std::vector<dealii::Tensor<1, dim>> &points, MPI_Comm communicator)
-{
-  std::vector<double> ends(2 * dim, -std::numeric_limits<double>::max());
-  for (const auto &x : points)
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        ends[d]       = std::max(ends[d], x[d]);
-        ends[dim + d] = std::max(ends[dim + d], -x[d]);
-      }
-  dealii::Utilities::MPI::max(ends, communicator, ends);
-  Box<dim> box;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      box.upper[d] = ends[d] + 0.; // no -0
-      box.lower[d] = 0. - ends[dim + d];
-    }
-  return box;
-}
-
-template <int dim>
-Box<dim> box_of_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
-{
-  std::vector<dealii::Tensor<1, dim>> points;
-  for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
-    if (mesh.body_of_node(node) == body)
-      points.push_back(mesh.reference_positions()[node]);
-  return box_of<dim>(points, mesh.communicator());
-}
-
-template <int dim>
-Box<dim> box_of_side(const mesh::BodyMesh<dim> &mesh, const contact::Side &side)
-{
-  std::vector<dealii::Tensor<1, dim>> points;
-  for (const auto &face : mesh.boundary_faces())
-    if (contact::is_on(face, side))
-      for (const unsigned int node : face.nodes)
-        points.push_back(mesh.reference_positions()[node]);
-  return box_of<dim>(points, mesh.communicator());
-}
-
 template <int dim>
 double area_of(const mesh::BodyMesh<dim> &mesh, const mesh::Surface<dim> &surface)
 {
@@ -103,8 +54,7 @@ std::vector<typename MeshSummary<dim>::Region> regions_of_body(const mesh::BodyM
 }
 
 template <int dim>
-typename MeshSummary<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mesh,
-                                                  unsigned int               body)
+typename MeshSummary<dim>::Body summarize_body(const mesh::BodyMesh<dim> &mesh, unsigned int body)
 {
   typename MeshSummary<dim>::Body entry;
   for (const auto &cell : mesh.cells())
@@ -122,9 +72,10 @@ typename MeshSummary<dim>::Body inventory_of_body(const mesh::BodyMesh<dim> &mes
   return entry;
 }
 
-/// @p size: of the body, against which round-off does not show.
+/// Return the extents of a box as text. Numbers that are round-off, relative to the @p size of the
+/// body, are shown as 0.
 template <int dim>
-std::string extents(const Box<dim> &box, double size)
+std::string extents(const BoundingBox<dim> &box, double size)
 {
   const double       least = 1e-9 * size;
   std::ostringstream text;
@@ -137,16 +88,6 @@ std::string extents(const Box<dim> &box, double size)
     }
   return text.str();
 }
-
-/// Zero where boxes overlap.
-template <int dim>
-double distance(const Box<dim> &a, const Box<dim> &b)
-{
-  dealii::Tensor<1, dim> gap;
-  for (unsigned int d = 0; d < dim; ++d)
-    gap[d] = std::max({0., a.lower[d] - b.upper[d], b.lower[d] - a.upper[d]});
-  return gap.norm();
-}
 } // namespace
 
 template <int dim>
@@ -155,7 +96,7 @@ MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<
   MeshSummary<dim> summary;
   for (unsigned int body = 0; body < scene.bodies.size(); ++body)
     {
-      summary.bodies.push_back(inventory_of_body(mesh, body));
+      summary.bodies.push_back(summarize_body(mesh, body));
       summary.bodies.back().name = scene.bodies[body].name;
     }
   return summary;
@@ -166,7 +107,7 @@ void print(const MeshSummary<dim> &summary, std::ostream &out)
 {
   for (const auto &body : summary.bodies)
     {
-      const double size = body.box.lower.distance(body.box.upper);
+      const double size = body.box.diagonal();
       out << "body " << body.name << ": " << counted(body.n_cells, "cell") << ", "
           << extents<dim>(body.box, size) << '\n';
       if (body.regions.size() > 1)
@@ -187,112 +128,8 @@ void print(const MeshSummary<dim> &summary, std::ostream &out)
     }
 }
 
-template <int dim>
-void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
-{
-  const double too_far = 10.;
-  for (const auto &pair : scene.contact.pairs)
-    {
-      if (scene::split_face(pair.master).second.empty())
-        continue; // an obstacle
-      double   size = 0.;
-      Box<dim> boxes[2];
-      for (const unsigned int side : {0, 1})
-        {
-          const auto faces = find_side(scene, mesh, side == 0 ? pair.slave : pair.master);
-          const auto body  = box_of_body(mesh, faces.body());
-          boxes[side]      = box_of_side(mesh, faces);
-          size             = std::max(size, body.lower.distance(body.upper));
-        }
-      const double gap = distance<dim>(boxes[0], boxes[1]);
-      if (gap <= too_far * size)
-        continue;
-      std::ostringstream text;
-      text << "have a distance of " << gap << ", but the size of the larger body is only " << size
-           << "; check the units of the meshes, 'Scale' and 'Shift'";
-      throw InputError(scene.file + ": entry 'Contact/Pairs': '" + pair.slave + "' and '" +
-                       pair.master + "' " + text.str());
-    }
-}
-
-/// Bodies share no vertices, so that one which is refined further does not refine another.
-template <int dim>
-std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
-{
-  std::vector<double> n_cells(scene.bodies.size(), 0.);
-  for (const auto &cell : mesh.cells())
-    n_cells[cell.body] += 1.;
-  dealii::Utilities::MPI::sum(n_cells, mesh.communicator(), n_cells);
-  std::vector<std::string> lines;
-  for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-    {
-      const auto  &body = scene.bodies[b];
-      const double even =
-        mesh.geometry(b).n_coarse_cells() * std::pow(2., double(dim) * body.mesh.refinements);
-      if (!body.mesh.refine_where.empty() && body.mesh.local_refinements > 0 && n_cells[b] == even)
-        lines.push_back("'Refine where' of body " + body.name +
-                        " is positive at the centre of none of its " + to_text(n_cells[b]) +
-                        " cells: no cell is refined; 'Refinements' can make cells smaller first");
-    }
-  return lines;
-}
-
-template <int dim>
-void print_estimate(RunContext                &context,
-                    const scene::Scene        &scene,
-                    const mesh::BodyMesh<dim> &mesh,
-                    const unsigned int         n_ranks,
-                    const bool                 stages)
-{
-  const auto counts = advice::count(scene, mesh);
-  throw_collectively(context.communicator(), [&]() {
-    if (context.rank() == 0)
-      with_file_context(scene, [&]() {
-        print(advice::estimate_cost(scene, counts, n_ranks, advice::machine_speed()), stages,
-              context.out(stages ? Verbosity::quiet : Verbosity::normal));
-      });
-  });
-}
-
-void print_faces(const scene::Scene &scene, std::ostream &out)
-{
-  for (const auto &body : scene.bodies)
-    if (body.mesh.imported && !body.mesh.imported->faces.empty())
-      {
-        out << "body " << body.name << ", " << body.mesh.file << ":\n";
-        for (const auto &line : body.mesh.imported->faces)
-          out << "  " << line << '\n';
-      }
-}
-
-std::vector<std::string> import_warnings(const scene::Scene &scene)
-{
-  std::vector<std::string> lines;
-  for (const auto &body : scene.bodies)
-    if (body.mesh.imported)
-      for (const auto &warning : body.mesh.imported->warnings)
-        lines.push_back("body " + body.name + ", " + body.mesh.file + ": " + warning);
-  return lines;
-}
-
-void print_import_notes(const scene::Scene &scene, std::ostream &out)
-{
-  for (const auto &body : scene.bodies)
-    if (body.mesh.imported)
-      for (const auto &note : body.mesh.imported->notes)
-        out << "body " << body.name << ", " << body.mesh.file << ": " << note << '\n';
-}
-
-template MeshSummary<2>           summarize_mesh(const scene::Scene &, const mesh::BodyMesh<2> &);
-template void                     print(const MeshSummary<2> &, std::ostream &);
-template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<2> &);
-template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<2> &);
-template void
-print_estimate(RunContext &, const scene::Scene &, const mesh::BodyMesh<2> &, unsigned int, bool);
-template MeshSummary<3>           summarize_mesh(const scene::Scene &, const mesh::BodyMesh<3> &);
-template void                     print(const MeshSummary<3> &, std::ostream &);
-template void                     check_distances(const scene::Scene &, const mesh::BodyMesh<3> &);
-template std::vector<std::string> unrefined(const scene::Scene &, const mesh::BodyMesh<3> &);
-template void
-print_estimate(RunContext &, const scene::Scene &, const mesh::BodyMesh<3> &, unsigned int, bool);
+template MeshSummary<2> summarize_mesh(const scene::Scene &, const mesh::BodyMesh<2> &);
+template void           print(const MeshSummary<2> &, std::ostream &);
+template MeshSummary<3> summarize_mesh(const scene::Scene &, const mesh::BodyMesh<3> &);
+template void           print(const MeshSummary<3> &, std::ostream &);
 } // namespace snug::app

@@ -16,7 +16,8 @@ const double negligible = 1e-4;
 
 using Boundaries = std::vector<contact::Boundary>;
 
-/// The nodes of boundaries with their normals and their components of rigid motions.
+/// This struct holds the nodes of boundaries with their normals, and computes the components of
+/// rigid motions there.
 template <int dim>
 struct MovedNodes
 {
@@ -166,7 +167,7 @@ std::string motion_name(const unsigned int dimension, const bool axisymmetric, u
   return dimension == 2 ? "about z" : std::string("about ") + axes[motion - dimension];
 }
 
-/// Return the line about a body with its shaped boundaries, or nothing.
+/// Return the warning about a body with its shaped boundaries; empty: there is none.
 template <int dim>
 std::string
 warning(const ShapeProblem<dim> &problem, const unsigned int body, const Boundaries &shaped)

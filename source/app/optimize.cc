@@ -1,7 +1,7 @@
 #include <snug/app/adaptation.h>
 #include <snug/app/conclusion.h>
+#include <snug/app/cost_report.h>
 #include <snug/app/interrupt.h>
-#include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
 #include <snug/base/errors.h>
 
@@ -28,12 +28,13 @@ constexpr unsigned int most_failures = 3;
 /// Part of the error of the objective below which changes of the objective end a search.
 constexpr double part_of_error = 0.3;
 
-/// A search on the mesh of the scene.
+/// Search on the mesh of the scene. Return what is wrong with the result; empty: nothing.
+/// Collective.
 template <int dim>
 std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene, const bool restart)
 {
   auto mesh = timed_mesh<dim>(context, scene);
-  print_estimate(context, scene, *mesh, context.n_ranks(), false);
+  print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
   ShapeProblem<dim> problem(context, scene, std::move(mesh));
   problem.check_overlaps();
   if (!restart)
@@ -49,8 +50,8 @@ std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene,
   return optimization::failure_reason(result, scene.optimization);
 }
 
-/// Searches on meshes that are made for targets. Each search begins where the search before has
-/// ended, until the mesh of a search is also good enough for the design found.
+/// This class searches on meshes that are made for targets. Each search begins where the search
+/// before has ended, until the mesh of a search is also good enough for the design found.
 template <int dim>
 class AdaptiveOptimization
 {
@@ -63,7 +64,7 @@ public:
   std::string run();
 
 private:
-  /// How a design is continued from on the mesh made for it.
+  /// This struct describes how a design is continued from on the mesh that was made for the design.
   struct Phase
   {
     double       tolerance; ///< of a search, relative to the objective

@@ -11,13 +11,13 @@ namespace {
 /// steps of the search.
 constexpr double area_step = 1e-3;
 
-/// Areas do not fall below this part of what they were.
+/// Minimum of predicted areas, relative to the areas of the design.
 constexpr double least_area = 1e-3;
 
 } // namespace
 
-/// The contact rows of one load case as linear functions of the design: for each row its force and
-/// its area, and then for each variable their derivatives.
+/// This class represents the contact rows of one load case as linear functions of the design. Its
+/// numbers are the forces and the areas of all rows, and then for each variable their derivatives.
 template <int dim>
 class Evaluator<dim>::LinearRows
 {
@@ -31,7 +31,8 @@ public:
     return 2 * n_rows * (1 + n_variables);
   }
 
-  /// Forces below zero are those of open rows.
+  /// Return the forces and the areas at the distance @p dx from the design. Forces below zero are
+  /// those of open rows and become zero.
   response::PressureRows at(const std::vector<double> &dx) const
   {
     response::PressureRows rows{{force(0), force(0) + n_rows}, {area(0), area(0) + n_rows}};
@@ -49,7 +50,7 @@ public:
     return rows;
   }
 
-  /// gradient_j += factor dJ/dx_j.
+  /// Add factor dJ/dx_j to gradient_j.
   void
   add(const response::Measured &measured, const double factor, std::vector<double> &gradient) const
   {

@@ -1,5 +1,5 @@
 #include <snug/accuracy/adaptation.h>
-#include <snug/app/mesh_summary.h>
+#include <snug/app/mesh_checks.h>
 #include <snug/app/offsets.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
@@ -66,7 +66,7 @@ void Results<dim>::print_header()
   for (const unsigned int c : positions)
     print_pairs(c, positions.size() > 1);
   warn(import_warnings(problem->scene));
-  warn(unrefined(problem->scene, *problem->mesh));
+  warn(refinement_warnings(problem->scene, *problem->mesh));
   warn(offset_warnings(*problem));
   for (const unsigned int c : positions)
     {
@@ -214,12 +214,13 @@ void Results<dim>::add_first(const States &states, const std::optional<Field> &s
 {
   export_first_qp(states);
   draw(0., states, shape_gradient);
-  // a pairing anew ends what else there is to know of them
+  // The states become invalid with a new contact search.
   for (const auto &state : states)
     first_states.push_back(io::summarize(state, response_values(state)));
 }
 
-/// A state is a result also where its error cannot be estimated.
+/// Return and print the estimated errors of @p states. If they cannot be estimated, warn and return
+/// none, because the states are results all the same. Collective.
 template <int dim>
 std::vector<MeshError> Results<dim>::estimate(const States &states)
 {
@@ -249,7 +250,7 @@ void Results<dim>::add_last(const double                  time,
   const auto &errors = last_errors;
   draw(time, states, shape_gradient, errors);
   export_meshes(states.front());
-  // contact may be paired anew before the summary is written
+  // A new contact search may follow before the summary is written.
   count_rows();
   const auto summarized = [&](const unsigned int c) {
     std::optional<io::Summary::Accuracy> accuracy;

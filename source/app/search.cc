@@ -100,7 +100,7 @@ void Search<dim>::report_first(const Iteration &iteration)
             << of_objective.reason << ")" << std::endl;
       results.add_first(analysis->states, of_objective.shape);
     }
-  if (problem.scene.optimization.algorithm == optimization::Algorithm::SLSQP)
+  if (problem.scene.optimization.algorithm == optimization::Algorithm::SQP)
     out << "initial trust region: node displacements of at most half a cell edge"
         << (evaluator.is_predicted() ? "; contact pressures are predicted from derivatives" : "")
         << std::endl;

@@ -192,11 +192,11 @@ double Sensitivity<dim>::displacement_difference(const std::vector<Field> &deriv
   return std::sqrt(sums[0] / sums[1]);
 }
 
-/// The objective's gradient is known. Each response has the method that is cheapest for it, unless
-/// the scene names one that all responses have.
 template <int dim>
 void Sensitivity<dim>::write_all(const std::string &path) const
 {
+  // The gradient of the objective is known. Each other response is differentiated by the method
+  // that is cheapest for it, unless the scene names a method for all.
   const auto                         &scene = problem.scene;
   std::vector<std::string>            names = {scene.optimization.objective};
   std::vector<std::vector<double>>    all   = {gradient.values};

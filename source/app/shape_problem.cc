@@ -1,4 +1,4 @@
-#include <snug/app/mesh_summary.h>
+#include <snug/app/mesh_checks.h>
 #include <snug/app/shape_problem.h>
 #include <snug/state/validity_checks.h>
 

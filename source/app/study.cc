@@ -1,5 +1,7 @@
 #include <snug/app/adaptation.h>
+#include <snug/app/cost_report.h>
 #include <snug/app/interrupt.h>
+#include <snug/app/mesh_checks.h>
 #include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
 #include <snug/app/sensitivity.h>
@@ -24,7 +26,8 @@
 
 namespace snug::app {
 namespace {
-/// States on the way to targets are solved no better than the error of their mesh asks for.
+/// Print the certificate of a state, with the tolerance of the state if it is larger than usual:
+/// states for targets are solved only as accurately as the error of their mesh requires.
 template <int dim>
 void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
 {
@@ -41,7 +44,7 @@ void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
   out << std::endl;
 }
 
-/// In the plane only the last component.
+/// Return the components of a moment as text, in the plane only the last one.
 template <int dim>
 std::string moment_text(const dealii::Tensor<1, 3> &moment)
 {
@@ -132,20 +135,20 @@ template <int dim>
 void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned int ranks)
 {
   const auto mesh = timed_mesh<dim>(context, scene);
-  print_estimate(context, scene, *mesh, ranks > 0 ? ranks : context.n_ranks(), true);
+  print_cost_estimate(context, scene, *mesh, ranks > 0 ? ranks : context.n_ranks(), true);
 }
 
 template <int dim>
 void validate_in(RunContext &context, const scene::Scene &scene)
 {
   auto mesh = timed_mesh<dim>(context, scene);
-  print_estimate(context, scene, *mesh, context.n_ranks(), false);
+  print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_import_notes(scene, context.out());
-  print_faces(scene, context.out(Verbosity::quiet));
+  print_cad_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   for (const auto &line : import_warnings(scene))
     context.warn(line);
-  for (const auto &line : unrefined(scene, *mesh))
+  for (const auto &line : refinement_warnings(scene, *mesh))
     context.warn(line);
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
   for (const unsigned int c : problem.solver->positions())
@@ -185,13 +188,13 @@ std::string analyse(RunContext &context, const scene::Scene &scene, const bool a
     {
       adaptation.start();
       remove_earlier_results(context, scene);
-      failure_reason = adaptation.settle();
+      failure_reason = adaptation.reach_and_verify();
       adapted        = adaptation.release();
     }
   else
     {
       auto mesh = timed_mesh<dim>(context, scene);
-      print_estimate(context, scene, *mesh, context.n_ranks(), false);
+      print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
       adapted.problem = std::make_unique<ShapeProblem<dim>>(context, scene, std::move(mesh));
       adapted.problem->check_overlaps();
       remove_earlier_results(context, scene);
@@ -257,15 +260,17 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
     throw SolveError(failure_reason);
 }
 
-/// A misspelt one would not show otherwise.
+/// Warn of PETSc options that were not used, because a misspelt option would not be noticed
+/// otherwise. Collective.
 void warn_of_unused_petsc_options(RunContext &context)
 {
   for (const auto &option : petsc::unused_options(context.communicator()))
     context.warn("PETSc option " + option + " was not used");
 }
 
-/// OpenBLAS takes its buffer at the first call that needs one, and tries for ever where there
-/// is no memory: have it at once, if there is some.
+/// Make OpenBLAS allocate its buffer, after a check that there is memory for the buffer. Otherwise
+/// OpenBLAS would allocate at the first call that needs the buffer, and retry indefinitely if there
+/// is no memory. @throws std::bad_alloc.
 void reserve_blas_buffer()
 {
   const std::size_t more_than_it_takes = std::size_t(256) << 20;

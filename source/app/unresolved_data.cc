@@ -8,8 +8,9 @@
 
 namespace snug::app {
 namespace {
-/// The part of loads that the first mesh may miss: where loads jump, this error falls unevenly from
-/// mesh to mesh, and so it is made small beside the targets at once.
+/// Return the part of the loads that the first mesh may miss. Where loads jump, this error
+/// decreases irregularly from mesh to mesh; therefore it is made small compared with the targets at
+/// once.
 double missed_loads(const scene::Scene &scene)
 {
   const double least = 0.002;
@@ -23,16 +24,17 @@ double missed_loads(const scene::Scene &scene)
 }
 } // namespace
 
-/// A first mesh that has the loads and the surfaces of the scene, of which states and estimates see
-/// nothing where no Gauss point and no node is. Collective.
+/// Refine the first mesh until it resolves the loads and the surfaces of the scene, and warn of
+/// what remains unresolved. States and estimates cannot depend on details without Gauss points and
+/// nodes. Collective.
 template <int dim>
 void Adaptation<dim>::resolve_data()
 {
   const RunContext::Timer timer(context, "setup");
   while (true)
     {
-      const auto               mesh = build_mesh(scene, forest_with(refined), false);
-      auto                     next = refined;
+      const auto               mesh = build_mesh(scene, forest_with(last_refinement), false);
+      auto                     next = last_refinement;
       std::vector<std::string> names;
       for (const auto &body : scene.bodies)
         names.push_back(body.name);
@@ -40,10 +42,10 @@ void Adaptation<dim>::resolve_data()
         return accuracy::unresolved_data(*mesh, build_load_cases(scene, *mesh), names,
                                          missed_loads(scene));
       });
-      add(*mesh, refined, found.cells, next);
-      if (next != refined && fits(*mesh))
+      add_cells(*mesh, last_refinement, found.cells, next);
+      if (next != last_refinement && is_affordable(*mesh))
         {
-          refined = std::move(next);
+          last_refinement = std::move(next);
           continue;
         }
       for (const auto &line : found.lines)
@@ -52,10 +54,11 @@ void Adaptation<dim>::resolve_data()
     }
 }
 
-/// The part of pressures that gaps between nodes may change: of responses that are not made of
-/// pressures, they change little. Collective.
+/// Return the part of pressures that the roughness of gaps between nodes may change. The part is
+/// smaller for responses that are functions of pressures, because the roughness changes others
+/// little. Collective.
 template <int dim>
-double Adaptation<dim>::rough_part() const
+double Adaptation<dim>::allowed_roughness() const
 {
   double                              least  = 0.1;
   const auto                         &solver = *solved->problem->solver;
@@ -70,7 +73,7 @@ double Adaptation<dim>::rough_part() const
 
 #define SNUG_INSTANTIATE(dim)                      \
   template void   Adaptation<dim>::resolve_data(); \
-  template double Adaptation<dim>::rough_part() const;
+  template double Adaptation<dim>::allowed_roughness() const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

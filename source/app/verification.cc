@@ -8,10 +8,11 @@
 
 namespace snug::app {
 namespace {
-/// Meshes of so many unknowns take about a second, whatever the meshes before took.
+/// Number of unknowns up to which the mesh for verification takes about a second, so that it is
+/// always solved.
 constexpr double cheap_unknowns = 1e4;
 
-/// How often the mesh that has missed the targets is gone on with.
+/// Maximum number of meshes for verification that are refined further after missing the targets.
 constexpr unsigned int most_finer = 3;
 } // namespace
 
@@ -24,10 +25,10 @@ std::string Adaptation<dim>::verify()
     return unbounded;
   Refinement everywhere = refined_everywhere();
   auto       mesh       = matched_mesh(everywhere);
-  if (!fits(*mesh))
+  if (!is_affordable(*mesh))
     return "the mesh for verification has " + std::to_string(unknowns(*mesh)) +
            " unknowns; increase 'Maximum unknowns', or set 'Verify' to false";
-  std::unique_ptr<Stage> fine;
+  std::unique_ptr<Adapted> fine;
   try
     {
       fine = solve_next(std::move(mesh));
@@ -61,13 +62,14 @@ std::string Adaptation<dim>::verify()
     }
   if (missed.empty())
     return "";
-  summary.met = false;
-  finer       = std::move(everywhere);
-  finer_stage = std::move(fine);
+  summary.met   = false;
+  finer         = std::move(everywhere);
+  finer_problem = std::move(fine);
   return "verification failed on the finer mesh (" + missed + "): relax 'Target'";
 }
 
-/// Without an entry, where it takes no longer than the meshes before.
+/// Return whether the mesh is to be verified: as `Verify` says or, without this entry, if the
+/// verification takes no longer than the meshes before.
 template <int dim>
 bool Adaptation<dim>::is_to_be_verified() const
 {
@@ -80,9 +82,9 @@ bool Adaptation<dim>::is_to_be_verified() const
   return needed <= std::min(spent, scene.accuracy.maximum_unknowns);
 }
 
-/// A mesh that verifies and says otherwise is the next one.
+/// Continue on the mesh for verification if the targets are missed there.
 template <int dim>
-std::string Adaptation<dim>::settle()
+std::string Adaptation<dim>::reach_and_verify()
 {
   std::string refused;
   for (unsigned int n = 0;; ++n)
@@ -96,17 +98,17 @@ std::string Adaptation<dim>::settle()
           return !unbounded.empty() ? unbounded : finer_is_enough ? "" : refused;
         }
       refused = verify();
-      if (refused.empty() || !finer_stage || n == most_finer)
+      if (refused.empty() || !finer_problem || n == most_finer)
         return refused;
       context.out() << refused.substr(0, refused.find(':')) << ": refining further" << std::endl;
-      refined = finer;
-      solved  = std::move(finer_stage);
+      last_refinement = finer;
+      solved          = std::move(finer_problem);
     }
 }
 
-#define SNUG_INSTANTIATE(dim)                     \
-  template std::string Adaptation<dim>::verify(); \
-  template std::string Adaptation<dim>::settle(); \
+#define SNUG_INSTANTIATE(dim)                               \
+  template std::string Adaptation<dim>::verify();           \
+  template std::string Adaptation<dim>::reach_and_verify(); \
   template bool        Adaptation<dim>::is_to_be_verified() const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

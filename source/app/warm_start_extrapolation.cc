@@ -9,10 +9,12 @@
 
 namespace snug::app {
 namespace {
-/// Designs remembered. More do not make the extrapolation better where variables are as many.
+/// Maximum number of designs that are kept. More designs do not improve the extrapolation, even of
+/// problems with as many variables.
 constexpr std::size_t most = 8;
 
-/// Error of the forces, as the part of the units that changes them as much.
+/// Error of the forces, expressed as the change of a variable, in its unit, that changes the forces
+/// by as much.
 constexpr double error_of_forces = 1e-6;
 
 void append(std::string &bytes, const double *values, const std::size_t n)

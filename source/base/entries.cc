@@ -14,10 +14,13 @@ Form in_range(const std::function<bool(double)> &contains, const std::string &ra
   return form;
 }
 
-/// Assign @p text. @throws InputError unless it has the form of the entry.
-void assign(const Entries::Description &entry, const Origins &origins, const std::string &text)
+/// Assign @p text, where the former name of a choice stands for its name.
+/// @throws InputError unless the text has the form of the entry.
+void assign(const Entries::Description &entry, const Origins &origins, std::string text)
 {
   const auto &choices = entry.form.choices;
+  if (const auto renamed = entry.form.renamed.find(text); renamed != entry.form.renamed.end())
+    text = renamed->second;
   try
     {
       if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end())
@@ -58,11 +61,13 @@ Form allowed(const std::string &description)
 Form choice(const Names &names)
 {
   Form form;
-  for (const auto &[name, meaning] : names)
+  for (const auto &[name, meaning, former] : names)
     {
       form.choices.push_back(name);
       if (!meaning.empty())
         form.meanings.push_back({name, meaning});
+      if (!former.empty())
+        form.renamed[former] = name;
     }
   form.allowed = (form.choices.size() > 1 ? "one of " : "") + to_text(form.choices);
   return form;

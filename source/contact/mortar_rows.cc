@@ -56,39 +56,35 @@ MortarRows<dim>::all_integrals(const Points<Number> &x) const
 }
 
 template <int dim>
-template <typename Number, typename Add>
-void MortarRows<dim>::for_each_part(const SlaveFace                     &face,
-                                    const mortar::FaceIntegrals<Number> &of_shapes,
-                                    const Points<Number>                &x,
-                                    const dealii::Tensor<1, dim>        &origin,
-                                    const Add                           &add) const
+template <typename Number, typename Sums, typename Add>
+void MortarRows<dim>::for_each_part(const FacePart<Number> &part, Sums &sums, const Add &add) const
 {
-  const auto  coupling = mortar::couple(of_shapes, face.functions);
-  const auto &nodes    = surface.faces()[face.face].nodes;
+  const SlaveFace &face     = part.face;
+  const auto       coupling = mortar::couple(part.integrals, face.functions);
+  const auto      &nodes    = surface.faces()[face.face].nodes;
   // Add int psi_j N at one node of a face to the coefficient and to the gap.
   const auto add_node = [&](unsigned int j, unsigned int node, const Number &integral) {
-    const dealii::Tensor<1, dim, Number> place = x[node] - origin;
+    const dealii::Tensor<1, dim, Number> place = part.x[node] - part.origin;
     for (const auto &[row, share] : multipliers.shares[nodes[j]])
       {
+        auto        &sum    = sums[row];
         const Number shared = share * integral;
         for_each_place(row, node, [&](unsigned int place_in_row, double weight) {
-          add(row, weight * shared,
-              [&](auto &sum) -> auto & { return sum.coefficients[place_in_row]; });
+          add(weight * shared, sum.coefficients[place_in_row]);
         });
         for (int d = 0; d < dim; ++d)
           // Hanging nodes enter the gap at their own position, because the gap is that between the
           // actual faces. The coefficients of hanging nodes went to their masters.
-          add(row, -(shared * place[d]), [&](auto &sum) -> auto & { return sum.offset[d]; });
+          add(-(shared * place[d]), sum.offset[d]);
       }
   };
   for (unsigned int j = 0; j < nodes.size(); ++j)
     {
       for (const auto &[row, share] : multipliers.shares[nodes[j]])
         {
-          add(row, share * coupling.multiplier[j], [](auto &sum) -> auto & { return sum.area; });
+          add(share * coupling.multiplier[j], sums[row].area);
           for (int d = 0; d < dim; ++d)
-            add(row, share * coupling.multiplier_offset(j, d),
-                [&](auto &sum) -> auto & { return sum.offset[d]; });
+            add(share * coupling.multiplier_offset(j, d), sums[row].offset[d]);
         }
       for (unsigned int l = 0; l < nodes.size(); ++l)
         // The other integrals are zero up to round-off, and the row may not contain their nodes.
@@ -104,8 +100,8 @@ void MortarRows<dim>::for_each_part(const SlaveFace                     &face,
                 for_each_place(share.first, master[k], [&](unsigned int place, double weight) {
                   // Absolute values are needed, because weights and shares of hanging nodes of
                   // degree 2 may be negative.
-                  add(share.first, std::abs(weight * share.second) * of_shapes.weights[f](j, k),
-                      [&](auto &sum) -> auto & { return sum.weights[place]; });
+                  add(std::abs(weight * share.second) * part.integrals.weights[f](j, k),
+                      sums[share.first].weights[place]);
                 });
             }
         }
@@ -122,10 +118,8 @@ MortarRows<dim>::row_sums(const Points<Number> &x) const
     sums.emplace_back(nodes.size());
   const auto parts = all_integrals(x);
   for (unsigned int f = 0; f < faces.size(); ++f)
-    for_each_part(faces[f], parts[f], x, {},
-                  [&](unsigned int row, const Number &part, const auto &entry) {
-                    entry(sums[row]) += part;
-                  });
+    for_each_part(FacePart<Number>{faces[f], parts[f], x}, sums,
+                  [](const Number &number, Number &entry) { entry += number; });
   for (const auto &sum : sums)
     // The area must be positive, because the row is divided by it.
     if (!(faces::value_of(sum.area) > 0.))
@@ -323,9 +317,9 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
     auto next      = values.begin();
     mortar::for_each_number(variables, [&](auto &number) { number = recording.variable(*next++); });
     // The integrals of psi_j (1 - 1) vanish, so positions may be measured from any origin.
-    for_each_part(face, variables, x, positions[nodes[0]],
-                  [&](unsigned int row, const faces::Recorded &part, const auto &entry) {
-                    recording.add(part, entry(slopes[row]));
+    for_each_part(FacePart<faces::Recorded>{face, variables, x, positions[nodes[0]]}, slopes,
+                  [&](const faces::Recorded &number, const double slope) {
+                    recording.add(number, slope);
                   });
     recording.sweep();
     x.add_derivatives(gradient);

@@ -150,8 +150,8 @@ std::optional<KnownSurface<dim>> CurvedFace<dim>::known() const
   result.centre = apex;
   // For R > 0 the centre is inside of the body.
   result.centre[flat.boundary / 2] -= (flat.boundary % 2 == 1 ? 1. : -1.) * radius;
-  result.radius = std::abs(radius);
-  result.convex = radius > 0.;
+  result.radius        = std::abs(radius);
+  result.encloses_body = radius > 0.;
   if (straight_axis < dim)
     {
       result.kind                = KnownSurface<dim>::Kind::cylinder;

@@ -21,11 +21,11 @@ double SurfaceSample<dim>::largest_distance(const KnownSurface<dim> &surface) co
 template <int dim>
 KnownSurface<dim> SurfaceSample<dim>::oriented(KnownSurface<dim> surface) const
 {
-  surface.convex = true;
-  double sum     = 0.;
+  surface.encloses_body = true;
+  double sum            = 0.;
   for (unsigned int i = 0; i < at.size(); ++i)
     sum += normals[i] * surface.normal(at[i]);
-  surface.convex = sum >= 0.;
+  surface.encloses_body = sum >= 0.;
   return surface;
 }
 

@@ -44,7 +44,7 @@ typename KnownSurface<dim>::Vector KnownSurface<dim>::normal(const Point &x) con
   // The normal is orthogonal to the line of the cone, cos(angle) axis + sin(angle) n.
   if (kind == Kind::cone)
     n = std::cos(angle) * n - std::sin(angle) * axis;
-  return convex ? n : -n;
+  return encloses_body ? n : -n;
 }
 
 template <int dim>
@@ -53,7 +53,7 @@ double KnownSurface<dim>::distance(const Point &x) const
   if (kind == Kind::cone)
     return (x - centre) * normal(x);
   const double outside = lever(x).norm() - (kind == Kind::torus ? tube : radius);
-  return convex ? outside : -outside;
+  return encloses_body ? outside : -outside;
 }
 
 template <int dim>

@@ -103,10 +103,10 @@ public:
         hole.axis[dim - 1] = 1.;
       }
     hole.radius           = inner;
-    hole.convex           = false;
+    hole.encloses_body    = false;
     KnownSurface<dim> rim = hole;
     rim.radius            = outer;
-    rim.convex            = true;
+    rim.encloses_body     = true;
     return {hole, rim};
   }
 

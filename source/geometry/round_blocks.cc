@@ -227,8 +227,8 @@ BlockMesh<3> shell_mesh(const BodyMeshParameters &parameters)
   mirror_octant(mesh, parts);
   set_outer(mesh, parameters.radius);
   KnownSurface<3> inner;
-  inner.radius = parameters.inner_radius;
-  inner.convex = false;
+  inner.radius        = parameters.inner_radius;
+  inner.encloses_body = false;
   set_known(mesh, 1, inner);
   // The radial axis must stay the last axis, because it has its own number of cells.
   order_layer_consistently(mesh);

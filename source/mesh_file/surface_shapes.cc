@@ -250,7 +250,7 @@ unsigned int SurfaceShapes<dim>::matching(const geometry::SurfaceSample<dim> &po
   unsigned int index = 0;
   while (index < surfaces.size() &&
          !(points.largest_distance(surfaces[index]) <= tolerance &&
-           points.oriented(surfaces[index]).convex == surfaces[index].convex))
+           points.oriented(surfaces[index]).encloses_body == surfaces[index].encloses_body))
     ++index;
   return index;
 }

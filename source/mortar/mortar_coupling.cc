@@ -167,8 +167,8 @@ functions_on(CoverBox<dim> box, const unsigned int degree, const double toleranc
     return functions;
   const auto         nodes = mesh::lagrange_nodes<dim - 1>(degree);
   const unsigned int n     = nodes.size();
-  functions.at.reinit(n, n);
-  functions.box.reinit(n, n);
+  functions.values.reinit(n, n);
+  functions.coefficients.reinit(n, n);
   for (unsigned int k = 0; k < n; ++k)
     {
       dealii::Point<dim - 1> on_face, scaled;
@@ -178,12 +178,12 @@ functions_on(CoverBox<dim> box, const unsigned int degree, const double toleranc
           on_face[a]          = box.lower[a] + length * nodes[k].point[a];
           scaled[a]           = (nodes[k].point[a] - box.lower[a]) / length;
         }
-      const auto at = mesh::lagrange_point<dim - 1>(degree, on_face).value;
-      const auto of = mesh::lagrange_point<dim - 1>(degree, scaled).value;
+      const auto of_face = mesh::lagrange_point<dim - 1>(degree, on_face).value;
+      const auto of_box  = mesh::lagrange_point<dim - 1>(degree, scaled).value;
       for (unsigned int j = 0; j < n; ++j)
         {
-          functions.at(k, j)  = at[j];
-          functions.box(j, k) = of[j];
+          functions.values(k, j)       = of_face[j];
+          functions.coefficients(j, k) = of_box[j];
         }
     }
   return functions;
@@ -193,9 +193,9 @@ template <typename Number>
 FaceIntegrals<Number> in_box(const FaceIntegrals<Number> &integrals,
                              const MultiplierFunctions   &functions)
 {
-  if (functions.box.empty())
+  if (functions.coefficients.empty())
     return integrals;
-  const auto           &C = functions.box;
+  const auto           &C = functions.coefficients;
   const unsigned int    n = integrals.slave.size();
   FaceIntegrals<Number> result;
   result.slave.resize(n);
@@ -261,7 +261,7 @@ FaceCoupling<Number> couple(const FaceIntegrals<Number> &of_nodes,
         result.multiplier_slave(j, j) = integrals.slave[j];
       else
         for (unsigned int l = 0; l < n; ++l)
-          result.multiplier_slave(j, l) = functions.at(j, l) * integrals.slave[j];
+          result.multiplier_slave(j, l) = functions.values(j, l) * integrals.slave[j];
     }
   for (const auto &P : integrals.slave_master)
     result.multiplier_master.push_back(product(A, P));

@@ -8,8 +8,8 @@ namespace snug::optimization {
 namespace {
 using Vector = std::vector<double>;
 
-/// Designs whose values are kept. As many as ScaledProblem keeps, because a rejected step may be
-/// followed by a return to the iterate.
+/// Number of designs whose values are kept: as many as ScaledProblem keeps, because a rejected step
+/// may be followed by a return to the iterate.
 constexpr unsigned int n_kept = 32;
 
 /// A maximum may change by this many times its size at the start.

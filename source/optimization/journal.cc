@@ -45,7 +45,7 @@ Evaluation replay(const JournalRecord &record)
   return record.evaluation;
 }
 
-/// Read a file into @p text. Returns whether the file exists and is readable.
+/// Read a file into @p text. Return whether the file exists and is readable.
 bool read_file(const std::string &path, std::string &text)
 {
   std::ifstream      in(path, std::ios::binary);
@@ -146,7 +146,7 @@ void Journal::forget_warm_start()
     std::filesystem::remove(warm_start_path(index), ignored);
 }
 
-/// The memory of the problem under way, as it was behind its first @p n values.
+/// Load the memory of the problem that is being optimized, as it was after its first @p n values.
 void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n)
 {
   if (n <= first || !problem.remember)
@@ -159,7 +159,7 @@ void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n
           ": the next solve is a cold start, results agree to the solver tolerance");
       return;
     }
-  // all ranks or none: a solver that starts warm on some finds another path
+  // All ranks load their data, or none: a solver that starts warm on some ranks takes another path.
   std::string bytes;
   int         good = read_file(warm_start_path(n - 1), bytes) && problem.remember(bytes);
   MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, settings.communicator);
@@ -200,7 +200,7 @@ bool Journal::is_replayed(const DesignProblem &problem, const std::vector<double
   return false;
 }
 
-/// Go on behind the record, with the last value evaluated again if its state is needed.
+/// Continue after the last record. The last value is evaluated again if its state is needed.
 void Journal::go_live(const DesignProblem &problem, const bool last_again)
 {
   if (is_live)
@@ -274,8 +274,8 @@ Evaluation Journal::recorded_live(const DesignProblem               &problem,
   return record.evaluation;
 }
 
-/// Append; warm-start data first. Both steps end on all ranks together, so
-/// no rank overwrites data of a record that may still be the last one.
+/// Append a record, after the warm-start data if @p stores_memory. Both steps end on all ranks
+/// together, so no rank overwrites data of a record that may still be the last one. Collective.
 void Journal::store(const DesignProblem &problem,
                     const JournalRecord &record,
                     const bool           stores_memory)

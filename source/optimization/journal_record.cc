@@ -37,7 +37,7 @@ std::vector<std::string> split_lines(const std::string &text)
   return lines;
 }
 
-/// Whole lines of a text, one after the other.
+/// This class reads the whole lines of a text one after the other.
 class LineReader
 {
 public:
@@ -71,7 +71,7 @@ bool parse_numbers(const std::string &text, std::vector<double> &numbers)
   return true;
 }
 
-/// Put one line into the record; false if it cannot be one of its lines.
+/// Add a line to a record. Return false if the line cannot belong to a record.
 bool parse_line(const std::string &line, JournalRecord &record)
 {
   const auto        space = std::min(line.find(' '), line.size());
@@ -144,7 +144,8 @@ Reading parse_record(LineReader &reader, unsigned int index, JournalRecord &reco
   return Reading::torn;
 }
 
-/// The header's end, or 0 if it is torn.
+/// Return the end of the header [bytes], or 0 if the header is incomplete. @throws InputError if
+/// the journal has another format or fingerprint.
 std::size_t
 parse_header(LineReader &reader, const std::string &fingerprint, const std::string &file)
 {

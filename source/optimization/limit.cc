@@ -7,7 +7,8 @@
 
 namespace snug::optimization {
 namespace {
-/// Take @p part off the front of @p text, if it is there, and blanks.
+/// Remove @p part and blanks from the front of @p text. Return false if @p text does not begin with
+/// @p part.
 bool take(std::string &text, const std::string &part)
 {
   if (text.rfind(part, 0) != 0)

@@ -2,10 +2,10 @@
 #include <snug/optimization/linear_limits.h>
 
 namespace snug::optimization {
-/// predict() of a problem takes constraints without a prediction of their own as linear functions,
-/// so that it applies to the limits as it is.
 DesignProblem with_limits(DesignProblem problem, const std::vector<LinearLimit> &limits)
 {
+  // predict() of the problem needs no change, because it treats constraints that it does not know
+  // as linear functions.
   const auto add_rows = [limits](Evaluation &evaluation) {
     if (!evaluation.jacobian.empty() || !evaluation.gradient.empty())
       for (const auto &limit : limits)

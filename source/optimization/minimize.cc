@@ -73,7 +73,7 @@ void check_blind_start(const ScaledProblem &problem, OptimizationResult &result)
     "the constraint: change 'Initial' of the shape, or use <= or >=";
 }
 
-/// Run the search by the algorithm of the parameters and, where MMA has stalled, go on by SLSQP.
+/// Run the search with the algorithm of the parameters. If MMA stalls, SQP continues the search.
 OptimizationResult search(ScaledProblem                &problem,
                           Progress                     &progress,
                           const OptimizationParameters &parameters,
@@ -94,17 +94,17 @@ OptimizationResult search(ScaledProblem                &problem,
           if (end == StopReason::round_off)
             {
               if (hooks.log)
-                hooks.log("MMA stalled: continuing with SLSQP from iteration " +
+                hooks.log("MMA stalled: continuing with SQP from iteration " +
                           std::to_string(progress.n_iterations()));
-              algorithm = Algorithm::SLSQP;
+              algorithm = Algorithm::SQP;
             }
         }
-      if (problem.size() > 0 && algorithm == Algorithm::SLSQP)
+      if (problem.size() > 0 && algorithm == Algorithm::SQP)
         {
           progress.begin_run();
-          TrustRegion slsqp(problem, progress, parameters, hooks);
-          end     = slsqp.run();
-          failure = slsqp.failure;
+          TrustRegion sqp(problem, progress, parameters, hooks);
+          end     = sqp.run();
+          failure = sqp.failure;
         }
     }
   catch (const Interrupted &)
@@ -138,7 +138,7 @@ std::string failure_reason(const OptimizationResult     &result,
 
 bool takes_equalities(const Algorithm algorithm)
 {
-  return algorithm == Algorithm::SLSQP;
+  return algorithm == Algorithm::SQP;
 }
 
 OptimizationResult

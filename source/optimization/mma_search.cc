@@ -10,7 +10,8 @@ namespace snug::optimization {
 namespace {
 constexpr unsigned int max_failures = 5;
 
-/// NLopt may repeat evaluations indefinitely.
+/// Maximum number of callbacks in a row without an evaluation, because NLopt may repeat evaluations
+/// indefinitely.
 constexpr unsigned int max_repeated = 100;
 
 /// A run that gains less than this part of the objective, or half of the violation, in this number

@@ -73,7 +73,7 @@ void OptimizationParameters::check(const SectionCheck &section) const
         }
       require(limit.side != Limit::Side::equal || takes_equalities(algorithm),
               "'" + name + "' must have a limit with <= or >=: " + to_text(algorithm) +
-                " takes no equalities, SLSQP does");
+                " takes no equalities, SQP does");
     }
 }
 } // namespace snug::optimization

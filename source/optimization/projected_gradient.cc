@@ -20,10 +20,10 @@ std::vector<double> restricted(const std::vector<double> &v, const std::vector<b
 }
 
 /**
- * An orthonormal basis q_k of the restricted rows and, with it, the
- * combinations of the full rows: t_k = sum_j T_kj A_j agrees with q_k on
- * the used entries; T_kj follow the entries of t_k. Dependent rows are
- * left out; Gram-Schmidt twice.
+ * Compute an orthonormal basis q_k of the rows restricted to the @p used entries, and the same
+ * combinations of the full rows: t_k = sum_j T_kj A_j agrees with q_k on the used entries. In @p t,
+ * the factors T_kj follow the entries of t_k. Dependent rows are left out. Each row is
+ * orthogonalized twice because of round-off.
  */
 void orthonormalize(const std::vector<ConstraintGradient> &constraint_gradients,
                     const std::vector<bool>               &used,
@@ -56,7 +56,7 @@ void orthonormalize(const std::vector<ConstraintGradient> &constraint_gradients,
     }
 }
 
-/// r = g + A' mu with the mu that makes its used part smallest.
+/// This struct holds r = g + A' mu for the mu that minimizes the norm of the used entries of r.
 struct Reduced
 {
   std::vector<double> r, mu;
@@ -93,7 +93,9 @@ bool counts(const double r, const BoundState place)
     }
   return false;
 }
-/// The same with all multipliers free; returns them.
+
+/// Return the multipliers mu, of any sign, that minimize the norm of P(g + A' mu), and set
+/// @p smallest to the minimum.
 std::vector<double> minimize_pieces(const std::vector<double>             &g,
                                     const std::vector<ConstraintGradient> &constraint_gradients,
                                     const std::vector<BoundState>         &at_bounds,

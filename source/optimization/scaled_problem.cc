@@ -10,7 +10,7 @@
 
 namespace snug::optimization {
 namespace {
-/// More than the designs of a line search of MMA or L-BFGS.
+/// Number of designs that are kept, more than a line search evaluates.
 constexpr unsigned int n_remembered = 32;
 
 /// A variable closer to a bound, relative to its length, is at the bound.
@@ -19,8 +19,8 @@ constexpr double at_bound = 1e-8;
 /// An inequality with less left, relative to its scale, is active.
 constexpr double at_limit = 1e-6;
 
-/// Designs closer than this, relative to the lengths, are one design: in
-/// vain, NLopt likes to ask for many that differ in their last bits.
+/// Designs closer than this, relative to the lengths, are one design, because NLopt often requests
+/// designs that differ in their last bits only.
 constexpr double resolution = 1e-13;
 
 bool is_same(const std::vector<double> &a, const std::vector<double> &b)
@@ -100,8 +100,9 @@ ScaledProblem::ScaledProblem(const DesignProblem &the_problem)
   start_gradient_norm = slope / scale;
 }
 
-/// A limit that is round-off itself, as of a displacement that symmetry forbids, would make large
-/// numbers of the errors of states: as for the objective, the slope over 100 is the least scale.
+/// Set the scales of the constraints. Their minimum is a hundredth of the slope, as for the
+/// objective, because the scale of a limit that is round-off, such as of a displacement that
+/// symmetry forbids, would magnify the errors of states.
 void ScaledProblem::scale_constraints(const Point &start)
 {
   const auto slopes = jacobian(start); // with scales 1

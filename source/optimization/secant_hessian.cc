@@ -3,7 +3,7 @@
 
 namespace snug::optimization {
 namespace {
-/// A change of gradient counts as it is if its curvature is at least this part of that of B.
+/// A change of the gradient is used undamped if its curvature is at least this part of that of B.
 constexpr double least_part = 0.2;
 
 /// Minimum factor by which one step with less curvature may reduce B.
@@ -68,7 +68,7 @@ std::vector<double> SecantHessian::nonlinear(const std::vector<double> &v) const
   return {v.begin(), v.begin() + rows.size()};
 }
 
-/// B += factor v v'.
+/// Add factor v v' to B.
 void SecantHessian::add(const double factor, const std::vector<double> &v)
 {
   for (unsigned int i = 0; i < rows.size(); ++i)

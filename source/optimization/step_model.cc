@@ -21,7 +21,8 @@ constexpr double well_scaled = 1e-2;
 /// A variable of a step closer to the end of its box, relative to the radius, is there.
 constexpr double at_end = 1e-6;
 
-/// The callbacks of NLopt for a model, in steps z = d / unit and functions whose slopes are 1.
+/// This struct provides the callbacks of NLopt for a model, in steps z = d / unit and functions
+/// whose slopes are 1.
 struct Subproblem
 {
   const StepModel             &model;
@@ -29,9 +30,9 @@ struct Subproblem
   double                       unit, scale, value; ///< the objective is (f - value) / scale
   Vector                       slopes;             ///< of the constraints at z = 0
   Vector                       allowed;            ///< violations
-  /// @name Where variables enter linearly: the best of all steps that NLopt tries, after settle().
-  /// NLopt itself returns the best step that meets all constraints, which may be the first one,
-  /// because it meets constraints with kinks to about 1e-6 only.
+  /// @name If variables enter linearly, the best of all steps that NLopt tries, after settle().
+  /// NLopt itself returns the best step that meets all constraints. This may be the first step,
+  /// because NLopt meets constraints with kinks to about 1e-6 only.
   /// @{
   std::function<void(Vector &)> settle         = {};
   mutable Vector                best           = {};
@@ -110,7 +111,7 @@ struct Subproblem
     return result;
   }
 
-  /// Half the sum of the squares of violations.
+  /// Return half the sum of the squares of the violations, relative to the slopes.
   static double squared_violation(unsigned int n, const double *z, double *gradient, void *data)
   {
     const auto &self      = *static_cast<Subproblem *>(data);
@@ -131,7 +132,7 @@ struct Subproblem
   }
 };
 
-/// Return SLSQP in a box, with at most a thousand evaluations of the model.
+/// Return NLopt's SLSQP in a box, with at most a thousand evaluations of the model.
 nlopt::opt optimizer(const Vector &lower, const Vector &upper)
 {
   nlopt::opt result(nlopt::LD_SLSQP, narrow<unsigned int>(lower.size()));
@@ -142,7 +143,7 @@ nlopt::opt optimizer(const Vector &lower, const Vector &upper)
   return result;
 }
 
-/// Minimize from @p z, as far as NLopt comes.
+/// Minimize from @p z on. If NLopt fails, @p z is its last result.
 void minimize(nlopt::opt &optimizer, Vector &z)
 {
   double f = 0.;
@@ -219,7 +220,7 @@ void StepModel::settle(Vector &d) const
     }
 }
 
-/// Minimize from @p d on, in steps d / unit.
+/// Return the minimizer that NLopt finds from @p d on, in steps d / @p unit.
 Vector StepModel::minimize_from(const Vector &d, const double radius, const double unit) const
 {
   const auto &relations = problem.relations();

@@ -136,7 +136,8 @@ bool TrustRegion::evaluated(Trial &trial)
   return true;
 }
 
-/// The search ends if even the predicted gain is below the tolerance, as beside a kink.
+/// Reject a design and reduce the radius. Return StopReason::objective if even the predicted gain
+/// is below the tolerance, as beside a kink.
 StopReason TrustRegion::reject(const Trial &trial)
 {
   if (progress.is_feasible(*progress.iterate()) &&
@@ -172,7 +173,7 @@ StopReason TrustRegion::accept(const StepModel &model, const Trial &trial)
            : end;
 }
 
-/// Update B by the change of the gradient of the Lagrangian that the prediction has not.
+/// Update B by the change of the gradient of the Lagrangian that the prediction lacks.
 void TrustRegion::learn(const StepModel &model, const Trial &trial)
 {
   const auto  mu        = problem.multipliers(*trial.point);

@@ -226,8 +226,8 @@ void print_meanings(const Entries::Description &entry, std::ostream &out)
   if (entry.form.meanings.empty())
     return;
   out << "\n`" << entry.name << "`:\n\n";
-  for (const auto &[value, meaning] : entry.form.meanings)
-    out << "* `" << value << "`: " << meaning << "\n";
+  for (const auto &value : entry.form.meanings)
+    out << "* `" << value.name << "`: " << value.meaning << "\n";
 }
 } // namespace
 

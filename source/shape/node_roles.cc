@@ -61,31 +61,34 @@ plane_normals(const mesh::Surface<dim>                 &surface,
 
 template <int dim>
 NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
-  : face(face), drivers(face.mesh().n_local_nodes(), none), projectors(face.mesh().n_local_nodes())
+  : face(face)
+  , face_nodes(face.mesh().n_local_nodes(), none)
+  , projectors(face.mesh().n_local_nodes())
 {
-  find_drivers();
-  free_nodes(reach);
-  hold_or_slide();
-  for (unsigned int node = 0; node < drivers.size(); ++node)
-    if (drivers[node] != none)
+  find_face_nodes();
+  free_near_nodes(reach);
+  constrain_boundary_nodes();
+  for (unsigned int node = 0; node < face_nodes.size(); ++node)
+    if (face_nodes[node] != none)
       projectors[node] = 0.;
 }
 
 /// Nodes are found by their global numbers, because the face is gathered from all ranks.
 template <int dim>
-void NodeRoles<dim>::find_drivers()
+void NodeRoles<dim>::find_face_nodes()
 {
   const auto &surface = face.surface();
-  for (unsigned int node = 0; node < drivers.size(); ++node)
+  for (unsigned int node = 0; node < face_nodes.size(); ++node)
     {
       const unsigned int found = surface.find(face.mesh().global_node(node));
       if (found < surface.n_nodes())
-        drivers[node] = found;
+        face_nodes[node] = found;
     }
 }
 
 template <int dim>
-std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const bool touching) const
+std::vector<std::pair<unsigned int, unsigned int>>
+NodeRoles<dim>::other_boundaries(const bool touching) const
 {
   const auto               &mesh = face.mesh();
   const unsigned int        n    = mesh.geometry(face.body()).boundary_names().size();
@@ -94,7 +97,7 @@ std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const 
   for (const auto &other : mesh.boundary_faces())
     if (other.body == face.body())
       for (const unsigned int node : other.nodes)
-        if (drivers[node] != none)
+        if (face_nodes[node] != none)
           touches[other.boundary] = 1;
   // The faces that touch the shaped face may be on other ranks only.
   dealii::Utilities::MPI::max(touches, mesh.communicator(), touches);
@@ -107,7 +110,7 @@ std::vector<std::pair<unsigned int, unsigned int>> NodeRoles<dim>::others(const 
 
 /// Nodes of other bodies stay, because bodies have no nodes in common.
 template <int dim>
-void NodeRoles<dim>::free_nodes(const double reach)
+void NodeRoles<dim>::free_near_nodes(const double reach)
 {
   const auto           &mesh = face.mesh();
   const NearPoints<dim> near(face.positions());
@@ -119,11 +122,11 @@ void NodeRoles<dim>::free_nodes(const double reach)
 
 /// A node of both a held and a sliding boundary is held.
 template <int dim>
-void NodeRoles<dim>::hold_or_slide()
+void NodeRoles<dim>::constrain_boundary_nodes()
 {
   const auto              &mesh = face.mesh();
-  const mesh::Surface<dim> held(mesh, others(false));
-  const mesh::Surface<dim> sliding(mesh, others(true));
+  const mesh::Surface<dim> held(mesh, other_boundaries(false));
+  const mesh::Surface<dim> sliding(mesh, other_boundaries(true));
   const auto               normals =
     plane_normals(sliding, sliding.gather(mesh.reference_positions()), mesh.degree());
   std::map<unsigned int, unsigned int> slides, holds;

@@ -52,8 +52,8 @@ public:
         force[node] -= block * moves[surface_node];
     Field result = solve(force);
     for (unsigned int node = 0; node < result.size(); ++node)
-      if (roles.driver(node) != none)
-        result[node] = moves[roles.driver(node)];
+      if (roles.face_node(node) != none)
+        result[node] = moves[roles.face_node(node)];
     return result;
   }
 
@@ -69,7 +69,7 @@ private:
     const unsigned int  rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
     std::vector<double> sums(mesh.n_local_nodes(), 0.);
     for (unsigned int node = 0; node < sums.size(); ++node)
-      if (roles.freedom(node).norm() > 0. && mesh.owner(node) == rank)
+      if (roles.free_directions(node).norm() > 0. && mesh.owner(node) == rank)
         own.push_back(node);
     const unsigned int n = own.size();
     MPI_Scan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, mesh.communicator());
@@ -80,8 +80,8 @@ private:
       sums[own[i]] = 1. + first + i;
     mesh::sum_at_shared_nodes(mesh, 1, sums);
     for (unsigned int node = 0; node < sums.size(); ++node)
-      numbers.push_back(sums[node] > 0. && roles.freedom(node).norm() > 0. ? sums[node] - 1.
-                                                                           : none);
+      numbers.push_back(sums[node] > 0. && roles.free_directions(node).norm() > 0. ? sums[node] - 1.
+                                                                                   : none);
   }
 
   /// Assemble the blocks of the cells of this rank. Return the rows of A_ff by local node, with
@@ -103,15 +103,15 @@ private:
             const unsigned int row = K.nodes[a];
             if (numbers[row] == none)
               continue;
-            const Block &P = roles.freedom(row);
+            const Block &P = roles.free_directions(row);
             for (unsigned int b = 0; b < m; ++b)
               {
                 const unsigned int node  = K.nodes[b];
                 const Block        block = P * K.blocks[a * m + b];
                 if (numbers[node] != none)
-                  rows[row][numbers[node]] += block * roles.freedom(node);
-                else if (roles.driver(node) != none)
-                  couplings[row][roles.driver(node)] += block;
+                  rows[row][numbers[node]] += block * roles.free_directions(node);
+                else if (roles.face_node(node) != none)
+                  couplings[row][roles.face_node(node)] += block;
               }
             // In the directions in which the node may not move, a diagonal of the same size as in
             // the other directions keeps A_ff regular and does not change its condition number.

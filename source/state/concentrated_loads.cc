@@ -29,13 +29,16 @@ dealii::Tensor<1, 2> coordinates_of(const std::array<dealii::Tensor<1, 3>, 2> &t
 }
 } // namespace
 
-/// The faces of one boundary, replicated, with the faces of this rank among them.
+/// This class holds all faces of one boundary on each rank, and knows which of them belong to the
+/// rank.
 template <int dim>
-class ConcentratedLoads<dim>::Place
+class ConcentratedLoads<dim>::LoadedBoundary
 {
 public:
-  Place(const mesh::BodyMesh<dim> &mesh, const faces::FaceShape<dim> &shape, const Boundary &where)
-    : surface(mesh, {where})
+  LoadedBoundary(const mesh::BodyMesh<dim>   &mesh,
+                 const faces::FaceShape<dim> &shape,
+                 const Boundary              &boundary)
+    : surface(mesh, {boundary})
     , shape(shape)
     , own_face(surface.faces().size(), -1)
     , all(own_face.size())
@@ -45,7 +48,7 @@ public:
       of_nodes[surface.faces()[f].nodes] = f;
     for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
       if (const auto &face = mesh.boundary_faces()[f];
-          face.body == where.first && face.boundary == where.second)
+          face.body == boundary.first && face.boundary == boundary.second)
         {
           std::vector<unsigned int> nodes;
           for (const unsigned int node : face.nodes)
@@ -57,13 +60,15 @@ public:
                                                          surface.reference_positions());
   }
 
-  /// Return the smallest and this face's diagonal [length].
+  /// Return the diagonal of a face [length].
   double size(const unsigned int face) const
   {
     const auto &nodes = surface.faces()[face].nodes;
     const auto &x     = surface.reference_positions();
     return (x[nodes.back()] - x[nodes.front()]).norm();
   }
+
+  /// Return the minimum diagonal of the faces [length].
   double smallest_size() const
   {
     double smallest = size(0);
@@ -72,16 +77,18 @@ public:
     return smallest;
   }
 
+  /// Return the face closest to @p x and the coordinates there. @throws InputError if @p x is not
+  /// on the boundary.
   typename contact::NearestFace<dim>::Found at(const dealii::Point<dim> &x,
-                                               const PlacedForce<dim>   &given) const
+                                               const PlacedForce<dim>   &placed) const
   {
-    return face_at(surface, *search, x, given.name);
+    return face_at(surface, *search, x, placed.name);
   }
 
-  const mesh::Surface<dim>                         surface;
-  const faces::FaceShape<dim>                     &shape;
-  std::vector<int>                                 own_face; ///< of this rank, or -1
-  std::vector<unsigned int>                        all;
+  const mesh::Surface<dim>     surface;
+  const faces::FaceShape<dim> &shape;
+  std::vector<int>             own_face; ///< index among the faces of this rank, or -1
+  std::vector<unsigned int>    all;
   std::unique_ptr<const contact::NearestFace<dim>> search;
 };
 
@@ -90,16 +97,17 @@ ConcentratedLoads<dim>::ConcentratedLoads(const mesh::BodyMesh<dim>        &mesh
                                           const std::vector<LoadCase<dim>> &load_cases)
   : mesh(mesh), shape(mesh.degree()), forces(load_cases.size())
 {
-  std::map<Boundary, std::unique_ptr<Place>> places;
+  std::map<Boundary, std::unique_ptr<LoadedBoundary>> loaded;
   for (unsigned int c = 0; c < load_cases.size(); ++c)
     for (unsigned int body = 0; body < load_cases[c].bodies.size(); ++body)
       for (const auto &[boundary, load] : load_cases[c].bodies[body].boundaries)
-        for (const auto &given : load.concentrated)
+        for (const auto &placed : load.concentrated)
           {
-            auto &on = places[{body, boundary}];
-            if (!on)
-              on = std::make_unique<Place>(mesh, shape, Boundary(body, boundary));
-            place(given, c, *on);
+            auto &loaded_boundary = loaded[{body, boundary}];
+            if (!loaded_boundary)
+              loaded_boundary =
+                std::make_unique<LoadedBoundary>(mesh, shape, Boundary(body, boundary));
+            add(placed, c, *loaded_boundary);
           }
 }
 
@@ -153,7 +161,7 @@ std::vector<std::pair<unsigned int, elasticity::ConcentratedForce<3>>>
 forces_along_edge(const mesh::Surface<3>    &surface,
                   const mesh::Surface<3>    &other,
                   const faces::FaceShape<3> &shape,
-                  const PlacedForce<3>      &given)
+                  const PlacedForce<3>      &placed)
 {
   std::set<std::set<unsigned int>> edges;
   for_each_edge(other, shape, [&](unsigned int, unsigned int, const auto &nodes) {
@@ -171,53 +179,56 @@ forces_along_edge(const mesh::Surface<3>    &surface,
         dealii::Tensor<1, 2> piece;
         piece[1 - side / 2] = point.weight;
         result.emplace_back(face,
-                            elasticity::ConcentratedForce<3>{shape.at(xi), given.force, piece});
+                            elasticity::ConcentratedForce<3>{shape.at(xi), placed.force, piece});
       }
   });
   if (result.empty())
-    throw InputError(given.name + ": the boundaries have no common edge");
+    throw InputError(placed.name + ": the boundaries have no common edge");
   return result;
 }
 } // namespace
 
 template <int dim>
-void ConcentratedLoads<dim>::place(const PlacedForce<dim> &given,
-                                   const unsigned int      load_case,
-                                   const Place            &on)
+void ConcentratedLoads<dim>::add(const PlacedForce<dim> &placed,
+                                 const unsigned int      load_case,
+                                 const LoadedBoundary   &boundary)
 {
-  const auto add = [&](const unsigned int face, const Force &force) {
-    if (on.own_face[face] >= 0)
-      forces[load_case][static_cast<unsigned int>(on.own_face[face])].push_back(force);
+  const auto add_to_face = [&](const unsigned int face, const Force &force) {
+    if (boundary.own_face[face] >= 0)
+      forces[load_case][static_cast<unsigned int>(boundary.own_face[face])].push_back(force);
   };
   if constexpr (dim == 3)
     {
-      if (given.along)
+      if (placed.along)
         {
-          const unsigned int       body = on.surface.faces().front().body;
-          const mesh::Surface<dim> other(mesh, {{body, *given.along}});
-          for (const auto &[face, force] : forces_along_edge(on.surface, other, shape, given))
-            add(face, force);
+          const unsigned int       body = boundary.surface.faces().front().body;
+          const mesh::Surface<dim> other(mesh, {{body, *placed.along}});
+          for (const auto &[face, force] :
+               forces_along_edge(boundary.surface, other, shape, placed))
+            add_to_face(face, force);
           return;
         }
-      if (given.to)
+      if (placed.to)
         {
-          const auto   line   = *given.to - given.from;
+          const auto   line   = *placed.to - placed.from;
           const double most   = most_pieces;
-          const double wanted = pieces_per_face * line.norm() / on.smallest_size();
+          const double wanted = pieces_per_face * line.norm() / boundary.smallest_size();
           const auto   n      = static_cast<unsigned int>(std::ceil(std::min(wanted, most)));
           for (unsigned int i = 0; i < n; ++i)
             {
-              const auto found  = on.at(given.from + (i + 0.5) / n * line, given);
-              const auto values = shape.at(found.point.xi);
-              const auto t      = faces::tangents<dim>(values, on.surface.faces()[found.face].nodes,
-                                                       on.surface.reference_positions());
-              add(found.face, {values, given.force, coordinates_of(t, line / double(n))});
+              const auto nearest = boundary.at(placed.from + (i + 0.5) / n * line, placed);
+              const auto values  = shape.at(nearest.point.xi);
+              const auto t =
+                faces::tangents<dim>(values, boundary.surface.faces()[nearest.face].nodes,
+                                     boundary.surface.reference_positions());
+              add_to_face(nearest.face,
+                          {values, placed.force, coordinates_of(t, line / double(n))});
             }
           return;
         }
     }
-  const auto found = on.at(given.from, given);
-  add(found.face, {shape.at(found.point.xi), given.force});
+  const auto nearest = boundary.at(placed.from, placed);
+  add_to_face(nearest.face, {shape.at(nearest.point.xi), placed.force});
 }
 
 template class ConcentratedLoads<2>;

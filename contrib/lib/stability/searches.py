@@ -116,8 +116,8 @@ SEARCHES = [
         Refused(3, "violates"), ONE, quick=True),
     Row("no evaluation allowed", search(BLOCKS, **{"Optimization/Maximum evaluations": 0}),
         Refused(2, "Maximum evaluations"), ONE),
-    *map(tight, ("SLSQP", "MMA")),
-    *map(at_bound, ("SLSQP", "MMA")),
+    *map(tight, ("SQP", "MMA")),
+    *map(at_bound, ("SQP", "MMA")),
     Row("bounds without room", search(BLOCKS, **{"Shape/Bounds": "0, 0"}),
         Refused(2, "Bounds"), ONE),
     Row("loads rock a block: its contacts open and close", rocking(6), Solved(rocks),
@@ -132,7 +132,7 @@ SEARCHES = [
           Solved(lambda result: [Figure("gain", float(
               result.summary["optimization"]["objective_final"] <
               .8 * result.summary["optimization"]["objective_initial"]), 1., 0.)]), ONE)
-      for algorithm in ("SLSQP", "MMA")),
+      for algorithm in ("SQP", "MMA")),
     Row("degenerate start: weakly active contacts",
         sensitivity(**{"Contact/Gap": ".02*x^2", "Body upper/Curved faces": "",
                        "Body upper/Pressure": "", "Body upper/Displacement": "top: y = 0",

@@ -9,7 +9,7 @@
 #include <optional>
 
 namespace snug::app {
-/// A mesh that was made for targets, and the analysis of a design on this mesh.
+/// This struct holds a mesh that was made for targets, and the analysis of a design on this mesh.
 template <int dim>
 struct AdaptedProblem
 {
@@ -21,13 +21,13 @@ struct AdaptedProblem
 };
 
 /**
- * Adaptive refinement for a design. Each mesh is refined from the mesh before where its errors are
- * large, until the targets are met: bodies of CAD files are meshed anew, and the cells of other
- * bodies are divided. The analysis on a mesh starts from the contact forces on the
- * mesh before, to a solver tolerance that follows the discretization error. Contact faces that lie
- * opposite to each other are kept at one size. The states on which the marked cells depend change
- * within the solver tolerance when the subdomains change. The subdomains therefore do not depend on
- * the number of ranks, and neither do the meshes.
+ * This class refines meshes adaptively for a design. Each mesh is refined from the mesh before
+ * where its errors are large, until the targets are met: bodies of CAD files are meshed anew, and
+ * the cells of other bodies are divided. The analysis on a mesh starts from the contact forces on
+ * the mesh before, to a solver tolerance that follows the discretization error. Contact faces that
+ * lie opposite to each other are kept at one size. The states on which the marked cells depend
+ * change within the solver tolerance when the subdomains change. The subdomains therefore do not
+ * depend on the number of ranks, and neither do the meshes.
  */
 template <int dim>
 class Adaptation
@@ -36,7 +36,8 @@ public:
   using States = typename ShapeProblem<dim>::States;
   using Design = typename ShapeProblem<dim>::Design;
 
-  /// @p context and this object must outlive the problems that it makes.
+  /// Keep a reference to @p context and a copy of @p scene. @p context and this object must outlive
+  /// the problems that it makes.
   Adaptation(RunContext &context, const scene::Scene &scene) : context(context), scene(scene) {}
 
   /// Make the first mesh for @p design, or for the initial design if @p design is empty, and solve
@@ -51,7 +52,7 @@ public:
   /// Refine until errors are at most the targets, and verify() where `Verify` asks for it, or by
   /// default where that is cheap. Return why the targets are not met; empty: they are. Collective.
   /// @throws SolveError.
-  std::string settle();
+  std::string reach_and_verify();
 
   /// Compare with the mesh on which all cells are refined. Return why the targets are not met
   /// there; empty: they are. Collective. @throws SolveError.
@@ -66,7 +67,7 @@ public:
   /// too few faces for an estimate.
   const std::vector<MeshError> &errors() const { return solved->errors; }
   /// Return the refinement of the last mesh.
-  const Refinement &refinement() const { return refined; }
+  const Refinement &refinement() const { return last_refinement; }
 
   /// Return the value of the objective and its error, which is NaN if the objective is no target.
   /// Collective.
@@ -79,62 +80,63 @@ public:
   io::Summary::Adaptation summary;
 
 private:
-  using Mesh  = std::unique_ptr<mesh::BodyMesh<dim>>;
-  using Stage = AdaptedProblem<dim>;
+  using Mesh    = std::unique_ptr<mesh::BodyMesh<dim>>;
+  using Adapted = AdaptedProblem<dim>;
 
   RunContext                        &context;
   scene::Scene                       scene; ///< with the meshes of CAD files that were made last
-  Design                             at;    ///< the design; empty: the initial design
+  Design                             given_design; ///< empty: the initial design
   std::vector<accuracy::Demand>      demands;
   std::unique_ptr<mesh::Forest<dim>> forest;
-  std::set<dealii::CellId>           in_forest; ///< cells refined in the forest
-  Refinement                         refined;   ///< of the last mesh
-  std::optional<Refinement>          first;     ///< of the first mesh of the scene
-  Refinement                         finer;     ///< see finer_refinement()
-  double                             began;     ///< when the last mesh was begun [s]
-  unsigned int n_doubtful = 0; ///< number of last meshes on which contact or gaps were not resolved
-  std::unique_ptr<Stage> solved;
-  std::unique_ptr<Stage> finer_stage; ///< mesh of finer_refinement()
+  std::set<dealii::CellId>           forest_cells;     ///< cells refined in the forest
+  Refinement                         last_refinement;  ///< of the last mesh
+  std::optional<Refinement>          first_refinement; ///< of the first mesh of the scene
+  Refinement                         finer;            ///< see finer_refinement()
+  double                             mesh_start_time; ///< time at which the last mesh was begun [s]
+  /// number of successive meshes, up to the last one, on which contact or gaps were not resolved
+  unsigned int             n_underresolved = 0;
+  std::unique_ptr<Adapted> solved;
+  std::unique_ptr<Adapted> finer_problem; ///< on the mesh of finer_refinement()
   bool finer_is_enough = true; ///< errors on the finer mesh of verify() are below the targets
-  std::vector<std::string> unresolved; ///< gaps that are not resolved, as log lines
+  std::vector<std::string> unresolved_gaps; ///< gaps that are not resolved, as log lines
 
   static unsigned long     unknowns(const mesh::BodyMesh<dim> &mesh);
-  static double            tolerance(const Stage &stage);
+  static double            tolerance(const Adapted &adapted);
   const mesh::Forest<dim> &forest_with(const Refinement &refinement);
   Mesh                     matched_mesh(Refinement &refinement);
   Mesh                     first_mesh(const Refinement &refinement);
-  std::unique_ptr<Stage>   stage(Mesh mesh, double tolerance) const;
+  std::unique_ptr<Adapted> make_problem(Mesh mesh, double tolerance) const;
   void                     set_demands();
-  void                     solve(Stage &stage, const std::vector<qp::WarmStart> &starts) const;
-  void                     measure(Stage &stage) const;
-  void                     estimate(Stage &stage) const;
-  std::unique_ptr<Stage>   solve_next(Mesh mesh);
-  void                     report(const Stage &stage);
-  Design                   design(const Stage &stage) const;
+  void                     solve(Adapted &adapted, const std::vector<qp::WarmStart> &starts) const;
+  void                     measure(Adapted &adapted) const;
+  void                     estimate(Adapted &adapted) const;
+  std::unique_ptr<Adapted> solve_next(Mesh mesh);
+  void                     report(const Adapted &adapted);
+  Design                   design(const Adapted &adapted) const;
   bool                     is_at_rest() const;
   bool                     reads_pressure() const;
   bool                     is_met(unsigned int demand) const;
-  double                   least() const;
+  double                   minimum_tolerance() const;
   double                   first_tolerance(const Refinement &refinement) const;
   double                   next_tolerance() const;
-  bool                     is_rough() const;
-  bool                     fits(const mesh::BodyMesh<dim> &mesh) const;
-  void                     add(const mesh::BodyMesh<dim>         &mesh,
-                               const Refinement                  &of_mesh,
-                               const std::vector<dealii::CellId> &marked,
-                               Refinement                        &to,
-                               bool                               mesh_files_anew = true) const;
-  bool                     add_doubtful(Refinement &to);
-  double                   rough_part() const;
+  bool                     is_solver_too_inexact() const;
+  bool                     is_affordable(const mesh::BodyMesh<dim> &mesh) const;
+  void                     add_cells(const mesh::BodyMesh<dim>         &mesh,
+                                     const Refinement                  &of_mesh,
+                                     const std::vector<dealii::CellId> &marked,
+                                     Refinement                        &to,
+                                     bool                               mesh_files_anew = true) const;
+  bool                     add_underresolved(Refinement &to);
+  double                   allowed_roughness() const;
   void                     resolve_data();
   bool                     is_to_be_verified() const;
   void                     add_marked(Refinement &to) const;
-  void                     add_marked_beside(Refinement &to);
+  void                     add_marked_despite_narrow_contact(Refinement &to);
   Refinement               refined_everywhere() const;
-  std::string              failure();
-  std::string              noted();
-  std::string              go_on(Refinement &next);
-  std::string              missed(const std::string &advice) const;
+  std::string              failure_reason();
+  std::string              record_errors();
+  std::string              solve_refined(Refinement &next);
+  std::string              missed_targets(const std::string &advice) const;
   std::string              unbounded_at_edge();
 };
 } // namespace snug::app

@@ -5,10 +5,10 @@
 #include <snug/state/model.h>
 
 namespace snug::app {
-/// The load cases of a scene: the loads of the bodies and of the scene in
-/// each, and its own added. At least one, without a name.
-/// @throws InputError for names that do not exist and for resultants a
-///   body of revolution cannot have.
+/// Return the load cases of a scene. Each load case has the loads of the bodies and of the scene,
+/// to which its own loads are added. A scene without load cases has one load case without a name.
+/// @throws InputError for names that do not exist, and for resultants that a body of revolution
+///   cannot have.
 template <int dim>
 std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &scene,
                                                    const mesh::BodyMesh<dim> &mesh);
@@ -24,12 +24,14 @@ template <int dim>
 std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scene,
                                                  const mesh::BodyMesh<dim> &mesh);
 
-/// (body, boundary) of "body.boundary".
+/// Return the indices (body, boundary) of "body.boundary". @throws InputError for names that do not
+/// exist.
 template <int dim>
 std::pair<unsigned int, unsigned int>
 find_face(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &face);
 
-/// The boundaries of "body.boundary + body.boundary + ...".
+/// Return the boundaries of "body.boundary + body.boundary + ...". @throws InputError for names
+/// that do not exist.
 template <int dim>
 contact::Side
 find_side(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const std::string &side);

@@ -41,15 +41,16 @@ std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &scene, MPI_C
 template <int dim>
 std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene::Scene &scene);
 
-/// Mesh entries of all bodies, in their order.
+/// Return the mesh parameters of all bodies in their order, with the boundaries of which the true
+/// surfaces are needed.
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene);
 
 /// Return the contact pairs of a scene. @throws InputError for names that do not exist.
 template <int dim>
 std::vector<contact::Pair> build_pairs(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
-/// The state problem of a scene: names of bodies and boundaries become
-/// indices. @throws InputError for names that do not exist.
+/// Return the model of a scene, in which names of bodies and boundaries are replaced by indices.
+/// @throws InputError for names that do not exist.
 template <int dim>
 state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 } // namespace snug::app

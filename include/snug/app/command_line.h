@@ -23,9 +23,11 @@ struct Options
   bool                     version          = false;
 };
 
-/// Values may follow their option or an equals sign (--output=DIR).
-/// @throws InputError naming an option that is unknown, lacks its value or
-///   has one it does not take or that is none of PETSc's, and if there is not exactly one file.
+/// Return the options of a command line. The value of an option is the next argument or follows an
+/// equals sign (--output=DIR).
+/// @throws InputError naming an option that is unknown, that lacks its value, or that has a value
+///   which it does not take; also for options that exclude one another, for several files, and for
+///   no file if the options need one.
 Options parse(int argc, const char *const *argv);
 
 /// Return the text of --help.

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace snug::app {
-/// Results of a search that are known before it is reported.
+/// This struct holds results of a search that are known before the search is reported.
 struct PriorResults
 {
   bool is_paired = false; ///< contact was searched at the last design
@@ -18,8 +18,8 @@ struct PriorResults
 
 /**
  * Draw and summarize the design that a search has found: its analysis, the gain of the objective
- * with the estimated error, and the values after a new contact search, with warnings. Ends all
- * states of @p search. Collective. @throws SolveError if the design has no state.
+ * with the estimated error, and the values after a new contact search, with warnings. All
+ * states of @p search become invalid. Collective. @throws SolveError if the design has no state.
  */
 template <int dim>
 void report_result(Search<dim>                            &search,

@@ -9,7 +9,7 @@
 #include <optional>
 
 namespace snug::app {
-/// The contact analyses of a design and the gradients there.
+/// This struct holds the contact analyses of a design and the gradients there.
 template <int dim>
 struct Analysis
 {
@@ -20,7 +20,7 @@ struct Analysis
   sensitivity::Gradients<dim> gradients = {};
 };
 
-/// Objective and constraints without derivatives.
+/// This struct holds the objective and the constraints of a design without derivatives.
 struct DesignValues
 {
   double              objective = 0.;
@@ -89,7 +89,8 @@ public:
     starts.add(design, forces);
   }
 
-  /// Return the states of the first design. They are solved from cold starts if they are not known.
+  /// Return the states of the first design. If they are not known, they are solved
+  /// without starts, see ShapeProblem::solve().
   /// The last contact search must have been at the first design. Collective.
   const States &first_states();
 
@@ -101,10 +102,12 @@ public:
   static constexpr unsigned int most_predicted = 60;
 
 private:
-  /// Contact forces and areas of a load case as linear functions of the variables.
+  /// This class represents the contact forces and areas of a load case as linear functions of the
+  /// variables.
   class LinearRows;
 
-  /// The objective or a constraint: a response, combined of its values in load cases.
+  /// This struct describes the objective or a constraint: a response, combined of its values in
+  /// load cases.
   struct Quantity
   {
     std::string                                    name = {}; ///< of a constraint in the scene

@@ -4,10 +4,11 @@
 #include <mpi.h>
 
 namespace snug::app {
-/// From now on the first SIGTERM or SIGINT only sets a flag; the next one ends the process.
+/// Let the first SIGTERM or SIGINT from now on only set a flag. A second signal of the same kind
+/// ends the process.
 void catch_interrupts();
 
-/// @throws Interrupted on all ranks if any rank got a signal. Collective.
+/// Throw Interrupted on all ranks if any rank has received a signal. Collective.
 void check_interrupts(MPI_Comm communicator);
 } // namespace snug::app
 

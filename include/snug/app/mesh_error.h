@@ -5,7 +5,7 @@
 #include <snug/app/shape_problem.h>
 
 namespace snug::app {
-/// Estimated discretization errors of one state.
+/// This struct holds the estimated discretization errors of one state.
 struct MeshError
 {
   accuracy::EnergyEstimate                                        energy;

@@ -1,31 +1,24 @@
 #ifndef snug_app_mesh_summary_h
 #define snug_app_mesh_summary_h
 
-#include <snug/base/run_context.h>
-#include <snug/mesh/body_mesh.h>
+#include <snug/app/bounding_box.h>
 #include <snug/scene/scene.h>
 
 #include <iosfwd>
 
 namespace snug::app {
-/// Summary of the meshes of a scene for the author of the scene: sizes, boundaries, regions.
+/// This struct summarizes the meshes of a scene for its author: sizes, boundaries, regions.
 template <int dim>
 struct MeshSummary
 {
-  /// Bounding box [length].
-  struct Box
-  {
-    dealii::Point<dim> lower, upper;
-  };
-
   struct Boundary
   {
-    std::string name;
-    double      area = 0.; ///< [length^2]
-    Box         box;
+    std::string      name;
+    double           area = 0.; ///< [length^2]
+    BoundingBox<dim> box;
   };
 
-  /// A set of cells that can have its own material.
+  /// This struct describes a set of cells that can have its own material.
   struct Region
   {
     std::string   name;
@@ -38,49 +31,21 @@ struct MeshSummary
     std::string           name;
     unsigned long         n_cells = 0;
     std::vector<Region>   regions; ///< may be empty, see BodyGeometry
-    Box                   box;
+    BoundingBox<dim>      box;
     std::vector<Boundary> boundaries;
   };
 
   std::vector<Body> bodies;
 };
 
-/// The meshes as they are, refined. Collective.
+/// Return the summary of the refined meshes of a scene. Collective.
 template <int dim>
 MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
 
-/// One line per body, region and boundary.
+/// Print a line for each body, for each region of a body with several regions, and for each
+/// boundary.
 template <int dim>
 void print(const MeshSummary<dim> &summary, std::ostream &out);
-
-/**
- * @throws InputError if the faces of a pair are farther apart than ten
- *   times the larger of their bodies, as in a mix-up of units. Collective.
- */
-template <int dim>
-void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
-
-/// One line for each body whose 'Refine where' catches no cell. Collective.
-template <int dim>
-std::vector<std::string> unrefined(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
-
-/// Print the estimated cost of a run with @p mesh on @p n_ranks ranks: two lines, or a table of the
-/// @p stages. Collective.
-template <int dim>
-void print_estimate(RunContext                &context,
-                    const scene::Scene        &scene,
-                    const mesh::BodyMesh<dim> &mesh,
-                    unsigned int               n_ranks,
-                    bool                       stages);
-
-/// Print the faces of the CAD files of all bodies.
-void print_faces(const scene::Scene &scene, std::ostream &out);
-
-/// Return the warnings about errors of the geometry of mesh files, one line each.
-std::vector<std::string> import_warnings(const scene::Scene &scene);
-
-/// One line for each body whose mesh file was changed on reading.
-void print_import_notes(const scene::Scene &scene, std::ostream &out);
 } // namespace snug::app
 
 #endif

@@ -8,7 +8,7 @@
 
 namespace snug::app {
 /**
- * Return one line for each body whose shaped faces designs can move as a whole, if such a move
+ * Return a warning for each body whose shaped faces designs can move as a whole, if such a move
  * displaces a body instead of changing contact: no support holds this body against the motion, and
  * the body has contact on the shaped faces alone. The objective then hardly depends on the offset,
  * or drives the offset to the bounds. Only the components along the normals of the faces count.

@@ -18,7 +18,7 @@ namespace snug::app {
  * mesh is also good enough for the design found. The values of the first and of the last design are
  * those of meshes made for these designs.
  *
- * Collective. Return what is wrong with the result; empty: nothing.
+ * Collective. @return what is wrong with the result; empty: nothing.
  * @throws InputError, SolveError if the first design has no state.
  */
 template <int dim>

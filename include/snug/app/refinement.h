@@ -11,8 +11,8 @@
 
 namespace snug::app {
 /**
- * The refinement of a mesh beyond the entries of the scene. Bodies of CAD files are meshed anew
- * with smaller elements. The cells of other bodies are divided by p4est.
+ * This class holds the refinement of a mesh beyond the entries of the scene. Bodies of CAD files
+ * are meshed anew with smaller elements. The cells of other bodies are divided by p4est.
  */
 class Refinement
 {

@@ -33,13 +33,14 @@ public:
     node_numbers.reset();
   }
 
-  /// Print what was read. Collective.
+  /// Print the sizes of the problem, its contact pairs, and warnings about the input. Collective.
   void print_header();
 
-  /// Print what the targets in the summary took.
+  /// Print the numbers of meshes and F-mults that were needed for the targets, and the times.
   void print_work() const;
 
-  /// Print lines as warnings and keep them for the summary, once.
+  /// Print lines as warnings and keep them for the summary. Lines that are kept already are left
+  /// out.
   void warn(const std::vector<std::string> &lines);
 
   /// Warn where the model is doubtful at @p states.
@@ -48,8 +49,7 @@ public:
   /// Warn where derivatives at @p states are one-sided; @p more ends the line.
   void warn_of_weak_contacts(const States &states, const std::string &more = "");
 
-  /// Draw a design, unless the picture of this time is there already.
-  /// Collective.
+  /// Draw a design, unless its time is positive and that of the last picture. Collective.
   void draw(double                        time,
             const States                 &states,
             const std::optional<Field>   &shape_gradient,
@@ -59,11 +59,11 @@ public:
   /// gradient (this rank's share) if there is one. Collective.
   void add_first(const States &states, const std::optional<Field> &shape_gradient);
 
-  /// States of the first design as summarized; empty before add_first().
+  /// Return the summarized states of the first design. They are empty before add_first().
   const std::vector<io::Summary::State> &first() const { return first_states; }
 
-  /// The same of the last design or only one, and the errors of its mesh; empty: they are
-  /// estimated. Collective.
+  /// Draw and summarize the last design, or the only one, with its shape gradient and the errors of
+  /// its mesh. The errors are estimated if @p errors is empty. Collective.
   void add_last(double                        time,
                 const States                 &states,
                 const std::optional<Field>   &shape_gradient = {},
@@ -72,14 +72,14 @@ public:
   /// Return the discretization errors of all load cases, as estimated or given to add_last().
   const std::vector<MeshError> &errors() const { return last_errors; }
 
-  /// Print what there is to say of a scene with these states, for the log and the summary.
-  /// Collective.
+  /// Print the advice on the scene with these states, and add it to the summary. Collective.
   void advise(const States &states);
 
-  /// The optimized surface and the control points. Collective.
+  /// Write the shaped faces and the control points of a design, if the scene has design variables.
+  /// Collective.
   void export_shape(const std::vector<double> &design);
 
-  /// Name and value of each response of the scene. Collective.
+  /// Return the name and the value of each response of the scene. Collective.
   std::vector<std::pair<std::string, double>>
   response_values(const state::ContactState<dim> &state) const;
 
@@ -87,7 +87,7 @@ public:
   /// Collective.
   void write_summary();
 
-  /// File @p name of the output directory.
+  /// Return the path of the file @p name in the output directory.
   std::string path(const std::string &name) const
   {
     return problem->scene.output_directory + "/" + name;
@@ -96,14 +96,14 @@ public:
   io::Summary summary; ///< its task, gradient and optimization are the task's
 
 private:
-  /// Numbers of rows in all positions of the bodies.
+  /// This struct holds numbers of rows in all positions of the bodies.
   struct RowCounts
   {
     unsigned int contact = 0, all = 0;
   };
 
   RowCounts counted_rows() const;
-  /// For the summary.
+  /// Set the sizes of the mesh, the numbers of rows and the kernel dimension in the summary.
   void                   count_rows();
   void                   export_first_qp(const States &states);
   std::vector<MeshError> estimate(const States &states);
@@ -117,7 +117,7 @@ private:
   /// Return WholeMesh::number_of of the mesh. Collective.
   const std::vector<unsigned int> &numbers_of_nodes();
 
-  /// Writers of one load case.
+  /// This struct holds the writers of one load case.
   struct Pictures
   {
     io::FieldOutput<dim>   fields;

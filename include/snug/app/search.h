@@ -12,7 +12,8 @@ namespace snug::app {
 /// the same state.
 constexpr double no_drift = 1e-12;
 
-/// The journal and the history that the searches of a run write, one after the other.
+/// This struct holds the journal and the history that the searches of a run write, one after the
+/// other.
 template <int dim>
 struct SearchRecord
 {
@@ -31,7 +32,7 @@ struct SearchRecord
 };
 
 /**
- * An optimization of a shape problem on its mesh, with log, history, journal and pictures. If the
+ * This class optimizes a shape problem on its mesh, with log, history, journal and pictures. If the
  * design has moved slave nodes along the master, a new contact search and a further optimization
  * follow.
  */
@@ -41,8 +42,8 @@ class Search
 public:
   using Design = typename ShapeProblem<dim>::Design;
 
-  /// Arguments must outlive this object. @p paired is the design of the contact search of
-  /// @p problem. May solve the first design, see Evaluator. Collective.
+  /// Keep references to @p problem and @p record. @p paired is the design of the contact search of
+  /// @p problem. The first design may be solved, see Evaluator. Collective.
   Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const Design &paired);
 
   /**

@@ -5,10 +5,9 @@
 
 namespace snug::app {
 /**
- * The objective of a scene differentiated at @p states, those of the start:
- * by Gradient/Method or, with Gradient/Compare, by all methods side by
- * side, printed as a table. At weakly active contacts the one-sided
- * derivatives stand beside them. Leaves the solver at another design.
+ * This class differentiates the objective of a scene at the start design: by Gradient/Method or,
+ * with Gradient/Compare, by all methods. A table of the gradients is printed, which at weakly
+ * active contacts has the one-sided derivatives too. The solver is left at another design.
  */
 template <int dim>
 class Sensitivity
@@ -17,6 +16,7 @@ public:
   using Field  = typename ShapeProblem<dim>::Field;
   using States = typename ShapeProblem<dim>::States;
 
+  /// Differentiate at @p states, those of the start design. References to all arguments are kept.
   /// Collective. @throws SolveError.
   Sensitivity(ShapeProblem<dim> &problem, Results<dim> &results, const States &states);
 
@@ -24,13 +24,13 @@ public:
   /// Collective.
   void write_all(const std::string &path) const;
 
-  /// For the summary.
+  /// gradients of the objective, for the summary
   io::Summary::Gradient gradient;
-  /// Shape gradient by the requested method, if requested: this rank's share.
+  /// shape gradient by the chosen method, if the scene asks for it: share of this rank
   std::optional<Field> shape_gradient;
 
 private:
-  /// A column of the table.
+  /// This struct describes a column of the table.
   struct Method
   {
     std::string                     name;

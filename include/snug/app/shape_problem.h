@@ -10,9 +10,9 @@
 
 namespace snug::app {
 /**
- * The shape problem of a scene, whatever its task: elastic bodies in
+ * This class represents the shape problem of a scene, whatever its task: elastic bodies in
  * contact, in all load cases, whose shape depends on a design, and the
- * responses measured there. It leaves no files.
+ * responses of these bodies. It writes no files.
  */
 template <int dim>
 class ShapeProblem
@@ -23,22 +23,25 @@ public:
   /// States of one design in all load cases.
   using States = std::vector<state::ContactState<dim>>;
 
-  /// Makes all but the mesh. Collective. @throws InputError naming the file.
+  /// Make the subdomains, the shapes, the solver and the responses on @p mesh. Contact is searched
+  /// at the start design. Collective. @throws InputError naming the file.
   ShapeProblem(RunContext                          &context,
                const scene::Scene                  &scene,
                std::unique_ptr<mesh::BodyMesh<dim>> mesh);
 
-  /// The limit of overlaps is one of faces: it is asked of the mesh that the user gave, not of
-  /// finer ones. @throws InputError, see state::check_overlaps().
+  /// Check the initial overlaps of all pairs. Their limit is relative to the face size; therefore
+  /// only the mesh that the user gave is checked, and no finer meshes.
+  /// @throws InputError, see state::check_overlaps().
   void check_overlaps() const;
 
-  /// Node positions of a design. Collective.
+  /// Return the node positions of a design. Collective.
   Field positions(const Design &design) const { return shape::positions(*mesh, *shapes, design); }
 
   unsigned int n_load_cases() const { return solver->model().load_cases.size(); }
 
-  /// The states of a design, each from its start; no starts: cold.
-  /// Collective. @throws SolveError.
+  /// Return the states of a design in all load cases, each solved from its start in @p starts.
+  /// Without starts, a load case starts from an earlier load case, see StateSolver::scaled_start(),
+  /// or cold. Collective. @throws SolveError.
   States solve(const Design &design, const std::vector<qp::WarmStart> &starts = {});
 
   /// Return the names of reported_values(): the objective and the responses of the scene by their
@@ -54,8 +57,8 @@ public:
   /// Return the objective, combined of its values in @p states. Collective.
   optimization::Combined combined_objective(const States &states) const;
 
-  /// The response called @p name. Collective. @throws InputError if the
-  /// scene has nothing it could measure.
+  /// Return the response called @p name. Collective. @throws InputError if the
+  /// scene has nothing that the response could measure.
   std::unique_ptr<response::Response<dim>> make_response(const std::string &name) const;
 
   /// Return the argument of combined_gradients() for @p states. All arguments must outlive the
@@ -64,8 +67,8 @@ public:
                                          const Design                          &design,
                                          const sensitivity::GradientParameters &parameters) const;
 
-  /// How far a design moved slave nodes off the points they are paired
-  /// with, in faces. Collective.
+  /// Return the maximum distance, in faces, by which a design has moved slave nodes away from the
+  /// points that they are paired with. Collective.
   double drift(const Design &design) const;
 
   RunContext                              &context;

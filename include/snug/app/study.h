@@ -18,8 +18,8 @@ void run_study(RunContext &context, const scene::Scene &scene, const Options &op
 /// @throws InputError.
 void validate(RunContext &context, const scene::Scene &scene);
 
-/// Read the file of @p options and do what they ask, on all ranks of MPI_COMM_WORLD; the log goes
-/// to standard output. Collective; returns 0.
+/// Read the file of @p options and do what they ask, on all ranks of MPI_COMM_WORLD. The log goes
+/// to standard output. Collective. @return 0.
 /// @throws InputError, SolveError.
 int run(const Options &options);
 } // namespace snug::app

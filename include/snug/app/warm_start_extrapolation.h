@@ -9,33 +9,33 @@
 
 namespace snug::app {
 /**
- * Where the solver begins at a new design: contact and gluing forces
- * extrapolated from those of earlier designs,
+ * This class extrapolates contact and gluing forces, from which the solver begins at a new design,
+ * from the forces of earlier designs,
  * @f[ \lambda(x) \approx \sum_j c_j \lambda(x_j), \quad \sum_j c_j = 1, @f]
- * with the c of least
+ * where c minimizes
  * @f$ |x - \sum_j c_j x_j|^2 + \sum_j c_j^2 (|x_j - x|^2 + \tau)^2 @f$,
- * in units of each variable: the first term is what a linear
- * model misses, the second bounds its curvature, so that far designs count
- * little, and what solutions are known to, @f$\tau = 10^{-6}@f$. One design is a warm start from
- * it, two a secant.
+ * in units of each variable. The first term measures the distance to the designs that the linear
+ * model represents. The second term bounds the curvature that the model neglects, so that far
+ * designs have small factors, and contains the accuracy @f$\tau = 10^{-6}@f$ of the forces. With
+ * one design the result is its forces, with two designs a secant.
  */
 class WarmStartExtrapolation
 {
 public:
-  /// @p units of the variables: changes of equal effect, positive.
+  /// Set the @p units of the variables, positive changes that have about equal effects.
   explicit WarmStartExtrapolation(std::vector<double> units);
 
-  /// Per load case, of this rank's rows; none without earlier designs, then
-  /// the start is cold.
+  /// Return the start of each load case with the rows of this rank. The result is empty, for a cold
+  /// start, if there are no earlier designs.
   std::vector<qp::WarmStart> at(const std::vector<double> &design) const;
 
-  /// Add the solution of a design: for each load case its contact @p forces, n_owned x 1. Removes
+  /// Add the solution of a design: for each load case its contact @p forces, n_owned x 1. Remove
   /// the oldest design if there are many.
   void add(const std::vector<double> &design, std::vector<qp::MultiVector> forces);
 
   void clear() { entries.clear(); }
 
-  /// For a restart, bit for bit.
+  /// Return the history as bytes, from which read() restores it bit for bit.
   std::string bytes() const;
 
   /// Restore the history from the result of bytes(), with @p n_owned rows per load case. Return

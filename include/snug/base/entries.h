@@ -18,6 +18,7 @@ struct Form
 {
   std::string                 allowed  = {}; ///< completes "must be "; "": follows from the type
   std::vector<std::string>    choices  = {}; ///< if the entry is a choice
+  TextMap                     renamed  = {}; ///< choices by the names that they had earlier
   Names                       meanings = {}; ///< of values, or of forms of values
   std::function<bool(double)> contains = {}; ///< checks every number of the value; empty: no check
   std::string                 range    = {}; ///< "must be positive", if contains() is false

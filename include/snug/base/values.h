@@ -20,6 +20,7 @@ using TextPairs = std::vector<std::pair<std::string, std::string>>;
 struct Name
 {
   std::string name, meaning = {};
+  std::string former = {}; ///< name of the choice in earlier versions, which is read as well
 };
 using Names = std::vector<Name>;
 

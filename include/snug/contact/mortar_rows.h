@@ -119,15 +119,20 @@ private:
       at(master.first, master.second);
   }
 
-  /// Call add(row, number, entry) for all parts of sums that are integrals over one slave face,
-  /// where entry(sum) is the entry of the RowSum to which the number belongs. Positions count from
-  /// @p origin.
-  template <typename Number, typename Add>
-  void for_each_part(const SlaveFace                     &face,
-                     const mortar::FaceIntegrals<Number> &of_shapes,
-                     const Points<Number>                &x,
-                     const dealii::Tensor<1, dim>        &origin,
-                     const Add                           &add) const;
+  /// This struct holds what the parts of the sums depend on that are integrals over one slave face.
+  template <typename Number>
+  struct FacePart
+  {
+    const SlaveFace                     &face;
+    const mortar::FaceIntegrals<Number> &integrals;
+    const Points<Number>                &x;
+    dealii::Tensor<1, dim>               origin = {}; ///< of the positions in the offsets
+  };
+
+  /// Call add(number, entry) for each number that one slave face contributes to the entries of
+  /// @p sums, one RowSum per row.
+  template <typename Number, typename Sums, typename Add>
+  void for_each_part(const FacePart<Number> &part, Sums &sums, const Add &add) const;
   template <typename Number>
   std::vector<RowSum<Number>> row_sums(const Points<Number> &x) const;
   /// Return row @p i from its sum and the normals @p n of the slave side.

@@ -23,7 +23,7 @@ struct SurfaceSample
   /// Return the maximum distance of the points from @p surface.
   double largest_distance(const KnownSurface<dim> &surface) const;
 
-  /// Return @p surface with the member convex set according to the normals.
+  /// Return @p surface with the member encloses_body set according to the normals.
   KnownSurface<dim> oriented(KnownSurface<dim> surface) const;
 };
 

@@ -7,7 +7,8 @@
 #include <string>
 
 namespace snug::geometry {
-/// Shape of the surface of a boundary, for the log.
+/// This struct describes the surface of a boundary. The log states it, and warnings and advice
+/// depend on it.
 struct BoundaryShape
 {
   std::string name = "plane";
@@ -28,7 +29,7 @@ public:
 };
 
 /**
- * A surface of revolution on which faces may lie: a sphere, in 3D also a
+ * This class is a surface of revolution on which faces may lie: a sphere, in 3D also a
  * cylinder, a cone or a torus. In 2D a sphere is a circle. Normals at points of the
  * surface are exact up to round-off, as contact of bodies that may rotate freely requires.
  */
@@ -48,12 +49,12 @@ public:
   using Vector = dealii::Tensor<1, dim>;
 
   Kind   kind = Kind::sphere;
-  Point  centre;        ///< centre of a sphere or torus, point of a cylinder axis, apex of a cone
-  Vector axis;          ///< unit vector, of a cone from the apex inwards; unused by spheres
-  double radius = 0.;   ///< radius, of a torus the radius of the middle circle [length]
-  double tube   = 0.;   ///< radius of the section of a torus [length]
-  double angle  = 0.;   ///< angle between the axis and the lines of a cone [radian]
-  bool   convex = true; ///< true if the body is inside
+  Point  centre; ///< centre of a sphere or torus, point of a cylinder axis, apex of a cone
+  Vector axis;   ///< unit vector, of a cone from the apex inwards; unused by spheres
+  double radius        = 0.;   ///< radius, of a torus the radius of the middle circle [length]
+  double tube          = 0.;   ///< radius of the section of a torus [length]
+  double angle         = 0.;   ///< angle between the axis and the lines of a cone [radian]
+  bool   encloses_body = true; ///< false if the body surrounds the surface, as around a hole
 
   /// Return the name "circle", "cylinder", ...
   std::string name() const;

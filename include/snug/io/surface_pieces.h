@@ -6,13 +6,14 @@
 #include <vector>
 
 namespace snug::io {
-/// A connected piece of a boundary.
+/// This struct is a connected piece of a boundary.
 struct SurfacePiece
 {
   unsigned int              body, boundary;
-  std::vector<unsigned int> faces; ///< indices of the surface
-  /// indices of the surface: in 2D along the piece, with the body on its left; a closed piece ends
-  /// with its first node. In 3D ascending.
+  std::vector<unsigned int> faces; ///< indices of faces of the surface
+  /// indices of nodes of the surface. In 2D the nodes are in the order along the piece that has the
+  /// body on its left, and the first node of a closed piece is repeated at the end. In 3D the
+  /// indices are ascending.
   std::vector<unsigned int> nodes;
 };
 

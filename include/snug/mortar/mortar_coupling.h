@@ -65,18 +65,22 @@ from_numbers(unsigned int n, unsigned int n_masters, std::vector<double>::const_
  * - Biorthogonal functions on a partly covered face, because otherwise force would act at its nodes
  *   beyond the end of the master side. They use the functions of the box [lower, upper] of the
  *   covered part instead of N,
- *   N~_j(xi) = N_j((xi - lower) / (upper - lower)) = sum_l box_jl N_l(xi),
- *   N_l = sum_j at_jl N~_j with at_jl = N_l at node j of the box, so that
- *   int psi_j N_l = int psi_j at_jl is a mean gap of the places of the box.
+ *   N~_j(xi) = N_j((xi - lower) / (upper - lower)) = sum_l coefficients_jl N_l(xi),
+ *   N_l = sum_j values_jl N~_j with values_jl = N_l at node j of the box, so that
+ *   int psi_j N_l = int psi_j values_jl is a mean gap of the places of the box.
  * - Standard functions, psi_j = N_j, for faces that are covered too little for m^-1.
  */
 struct MultiplierFunctions
 {
-  bool                     biorthogonal = true;
-  dealii::Table<2, double> at, box; ///< empty: functions of the nodes
+  bool biorthogonal = true;
+  /// @name Tables of the functions of a box; empty: functions of the whole face
+  /// @{
+  dealii::Table<2, double> values;       ///< N_l (column) at node j (row) of the box
+  dealii::Table<2, double> coefficients; ///< of N_l (column) in N~_j (row)
+  /// @}
 
   /// Return whether row j contains slave node j alone.
-  bool are_nodal() const { return biorthogonal && at.empty(); }
+  bool are_nodal() const { return biorthogonal && values.empty(); }
 };
 
 /// Return the functions on the box of the covered part of a face. Sides of the box that lie within

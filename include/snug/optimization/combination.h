@@ -6,7 +6,8 @@
 
 namespace snug::optimization {
 /**
- * A function J of the values J_c of a response in several load cases, with their weights w_c:
+ * This struct describes a function J of the values J_c of a response in several load cases, with
+ * their weights w_c:
  *
  * | kind      | J                                                    |
  * |-----------|------------------------------------------------------|
@@ -40,7 +41,7 @@ struct Combination
   /// Return "sum", "mean", "worst", "range", "deviation", "2 deviation" or "mean + 2 deviation".
   std::string text() const;
 
-  /// Read such a text. @throws std::invalid_argument
+  /// Return the combination of such a text. @throws std::invalid_argument
   static Combination read(const std::string &text);
 
   /// @name For entries of the parameter file
@@ -53,8 +54,8 @@ struct Combination
   /// @}
 };
 
-/// The value J and dJ / dJ_c. Where a maximum is reached in several load cases, the derivative is
-/// that of the first of them.
+/// This struct holds the value J and the derivatives dJ / dJ_c. Where a maximum is reached in
+/// several load cases, the derivative is that of the first of them.
 struct Combined
 {
   double              value = 0.;

@@ -7,19 +7,19 @@
 #include <vector>
 
 namespace snug::optimization {
-/// a'b of vectors of equal length.
+/// Return a'b for vectors of equal length.
 inline double dot(const std::vector<double> &a, const std::vector<double> &b)
 {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
 
-/// The Euclidean norm.
+/// Return the Euclidean norm.
 inline double norm(const std::vector<double> &v)
 {
   return std::sqrt(dot(v, v));
 }
 
-/// max |v_i|.
+/// Return max |v_i|; 0 for an empty vector.
 inline double largest(const std::vector<double> &v)
 {
   double result = 0.;
@@ -28,7 +28,7 @@ inline double largest(const std::vector<double> &v)
   return result;
 }
 
-/// a += factor b.
+/// Add factor b to a.
 inline void add(std::vector<double> &a, const double factor, const std::vector<double> &b)
 {
   for (unsigned int i = 0; i < b.size(); ++i)

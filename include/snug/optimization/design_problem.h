@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace snug::optimization {
-/// Values at a design and, once asked for, gradients.
+/// This struct holds the values at a design and, once they are computed, the gradients.
 struct Evaluation
 {
   double                           objective = 0.;
@@ -17,7 +17,7 @@ struct Evaluation
   std::vector<std::vector<double>> jacobian;    ///< m rows of n; empty with the gradient
   /// what predict() of the problem needs at this design; empty: nothing
   std::vector<double> linearization;
-  /// @name For the history; no optimizer looks at them
+  /// @name For the history; optimizers do not read them
   /// @{
   std::vector<double> reported; ///< further values of the design
   unsigned int        active_contacts       = 0;
@@ -35,7 +35,7 @@ enum class Relation
   term     ///< c(x) is a term of a Maximum
 };
 
-/// The objective or a constraint contains the largest of several terms.
+/// This struct describes the maximum of several terms that the objective or a constraint contains.
 struct Maximum
 {
   int          of;         ///< -1: the objective, else the index of the constraint
@@ -48,7 +48,8 @@ inline double violation(const Relation relation, const double c)
   return relation == Relation::equal ? std::abs(c) : std::max(0., c);
 }
 
-/// min f(x), c_j(x) = 0 or c_j(x) <= 0, lower <= x <= upper. Vectors only.
+/// This struct describes the problem min f(x), c_j(x) = 0 or c_j(x) <= 0, lower <= x <= upper, of
+/// vectors x.
 struct DesignProblem
 {
   std::vector<double> lower, upper, start;

@@ -26,7 +26,7 @@ public:
   /// Return hooks for the smooth problem that report designs and values of the design problem.
   Hooks hooks(const Hooks &given) const;
 
-  /// Return a result of the smooth problem as one of the design problem.
+  /// Return a result of the smooth problem as a result of the design problem.
   OptimizationResult result(OptimizationResult of_smooth) const;
 
 private:

@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace snug::optimization {
-/// Settings of a journal.
+/// This struct holds the settings of a journal.
 struct JournalSettings
 {
   /// existing directory for journal.txt and warm-start.<rank>.<0|1>
@@ -58,7 +58,7 @@ class Journal
 {
 public:
   /**
-   * Collective. Opens the journal; with `restart`, reads it.
+   * Open the journal and, with `restart`, read it. Collective.
    * @throws InputError if the directory cannot be written to, or the
    *   journal is of another format or problem or is damaged other than in
    *   its last record. A missing journal is no error: there was nothing to
@@ -75,10 +75,10 @@ public:
    */
   DesignProblem journaled(const DesignProblem &problem);
 
-  /// Evaluations answered from the record so far.
+  /// Return the number of calls that were answered from the records so far.
   unsigned int n_replayed() const { return replayed; }
 
-  /// Complete records, replayed or not.
+  /// Return the number of complete records, replayed or not.
   unsigned int n_records() const { return is_live ? next : narrow<unsigned int>(recorded.size()); }
 
 private:

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace snug::optimization {
-/// One evaluation as the journal keeps it.
+/// This struct holds one evaluation as the journal keeps it.
 struct JournalRecord
 {
   enum class Outcome
@@ -26,15 +26,15 @@ struct JournalRecord
 };
 
 /**
- * The text of record @p index: numbers in hexadecimal floating point (%a),
- * so that they are read back bit for bit; the line "end <index>" closes it.
+ * Return the text of record @p index. Numbers are in hexadecimal floating point (%a),
+ * so that they are read back bit for bit. The line "end <index>" closes the record.
  */
 std::string journal_text(const JournalRecord &record, unsigned int index);
 
-/// The first lines: format version and fingerprint.
+/// Return the first lines of a journal: format version and fingerprint.
 std::string journal_header(const std::string &fingerprint);
 
-/// Content of a journal's text.
+/// This struct holds the content of a journal.
 struct JournalContents
 {
   std::size_t                header_end = 0; ///< bytes; 0: no whole header
@@ -42,7 +42,7 @@ struct JournalContents
 };
 
 /**
- * Read a journal. An incomplete header or last record is left out.
+ * Return the content of the text of a journal. An incomplete header or last record is left out.
  * @throws InputError naming @p file if it is not a journal of this format
  *   and @p fingerprint (with the line that differs), or is damaged before
  *   its last record.

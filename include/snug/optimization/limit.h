@@ -4,7 +4,7 @@
 #include <string>
 
 namespace snug::optimization {
-/// Constraint of a response: an upper, a lower or a required value.
+/// This struct describes the limit of a response: an upper, a lower or a required value.
 struct Limit
 {
   enum class Side
@@ -19,8 +19,8 @@ struct Limit
   bool   of_initial = true; ///< value is a factor of the first design's
 };
 
-/// The limit of "<= 120", "= initial", ">= 0.9 initial"; without a sign,
-/// equal. @throws std::invalid_argument for anything else.
+/// Return the limit of "<= 120", "= initial" or ">= 0.9 initial". A text without a sign is a
+/// required value. @throws std::logic_error, such as std::invalid_argument, for other texts.
 Limit read_limit(const std::string &text);
 } // namespace snug::optimization
 

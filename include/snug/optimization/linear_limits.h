@@ -4,7 +4,7 @@
 #include <snug/optimization/design_problem.h>
 
 namespace snug::optimization {
-/// The limit a'x <= b of the variables x.
+/// This struct describes the limit a'x <= b of the variables x.
 struct LinearLimit
 {
   std::vector<double> row; ///< a

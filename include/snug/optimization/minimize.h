@@ -10,7 +10,7 @@
 
 namespace snug::optimization {
 /**
- * A design the optimizer has accepted; number 0 is the start.
+ * This struct holds a design that the optimizer has accepted; number 0 is the start.
  *
  * Both measures are free of units. With the lengths w of the variables and the scales s of the
  * constraints (ScaledProblem), the scaled gradients g_i = w_i df/dx_i and A_ji = w_i dc_j/dx_i /
@@ -19,12 +19,11 @@ namespace snug::optimization {
  *     \;(c_j^+ \text{ for inequalities}), \qquad
  *     \text{projected gradient} = \min_\mu \|P(g + A^T\mu)\|_2 \,/\,
  *     \max(\|g\|_2, \|g_{start}\|_2), @f]
- * where A holds equalities and active inequalities (c_j / s_j above -1e-6),
- * those with mu_j >= 0, and P keeps the entries of variables between their
- * bounds, of those at a lower bound only the negative and of those at an
- * upper bound only the positive ones (a variable within 1e-8 of its length
- * is at its bound). It is zero exactly at the points of Karush, Kuhn and
- * Tucker.
+ * where A holds equalities and active inequalities (c_j / s_j above -1e-6), the latter with
+ * mu_j >= 0. P keeps the entries of variables between their bounds, the negative entries of
+ * variables at a lower bound and the positive entries of variables at an upper bound (a variable
+ * within 1e-8 of its length is at its bound). The projected gradient is zero exactly at the points
+ * of Karush, Kuhn and Tucker.
  */
 struct Iteration
 {
@@ -36,16 +35,16 @@ struct Iteration
   unsigned int        evaluations          = 0; ///< so far
 };
 
-/// Whom the optimizer tells what it does; either may be empty.
+/// This struct holds functions by which the optimizer reports what it does. Each may be empty.
 struct Hooks
 {
-  /// Called once per accepted design, before the next one is evaluated.
+  /// Receive an accepted design, once per design and before the next one is evaluated.
   std::function<void(const Iteration &)> on_iteration;
-  /// Receives one line, without its end, per restart.
+  /// Receive a line of the log, without its end.
   std::function<void(const std::string &)> log;
 };
 
-/// Why a search, or one of its runs, ended.
+/// Reason why a search, or one of its runs, has ended.
 enum class StopReason
 {
   none,
@@ -59,17 +58,18 @@ enum class StopReason
 };
 
 /**
- * The design found and how the search for it ended: the last accepted one
- * if a tolerance was met, else the best one evaluated (the lowest that
- * meets the constraints or, if there is none, the one nearest to them).
+ * This struct holds the design found and how the search for it ended. It is the last accepted
+ * design if a tolerance was met, otherwise the best evaluated design: that with the lowest
+ * objective among the designs that satisfy the constraints or, if there is none, that with the
+ * smallest violation.
  */
 struct OptimizationResult
 {
   std::vector<double> x;
-  Algorithm           algorithm = Algorithm::SLSQP; ///< that finished
-  Evaluation          evaluation;                   ///< at x
-  unsigned int        iterations           = 0;     ///< accepted designs after the start
-  unsigned int        evaluations          = 0;     ///< calls of the design problem
+  Algorithm           algorithm = Algorithm::SQP; ///< of the end of the search
+  Evaluation          evaluation;                 ///< at x
+  unsigned int        iterations           = 0;   ///< accepted designs after the start
+  unsigned int        evaluations          = 0;   ///< calls of the design problem
   double              objective_initial    = 0.;
   double              objective_final      = 0.;
   double              constraint_violation = 0.; ///< as in Iteration
@@ -79,14 +79,12 @@ struct OptimizationResult
   StopReason  end = StopReason::none;
   /// "gradient tolerance", "objective tolerance", "design tolerance",
   /// "maximum evaluations", "round-off", "constraints violated",
-  /// "interrupted", "a constraint without a gradient at the first design..."
-  /// (where the search came back to it) or "failed evaluations (...)" with the message of the
-  /// last one
+  /// "interrupted", "the gradient of a constraint vanishes at the initial design..." (if the search
+  /// came back to this design) or "failed evaluations (...)" with the message of the last one
   std::string stop_reason;
-  /// Stopped by a tolerance at a design that meets the constraints, or by
-  /// round-off where the projected gradient is at most the square root of
-  /// the objective tolerance (the objective is then within about that
-  /// tolerance of its minimum). No other end sets it.
+  /// whether the search stopped by a tolerance at a design that satisfies the constraints, or by
+  /// round-off at such a design where the projected gradient is at most the square root of the
+  /// objective tolerance (the objective is then within about that tolerance of its minimum)
   bool success = false;
 };
 
@@ -99,21 +97,20 @@ std::string failure_reason(const OptimizationResult     &result,
 bool takes_equalities(Algorithm algorithm);
 
 /**
- * Minimize with the algorithm the parameters name. Every rank that shares
- * the problem's evaluate() must call this with the same numbers.
+ * Minimize with the algorithm that the parameters name. All ranks that share evaluate() of the
+ * problem must call this function with the same numbers.
  *
  * The start is moved into the bounds. A design without a value (SolveError,
- * TangledMesh, a number that is not finite) ends the step that asked for
- * it, see TrustRegion and MmaSearch. An Interrupted thrown by evaluate() or a hook
- * ends the search with stop reason "interrupted"; any other exception of
- * theirs passes through unchanged.
+ * TangledMesh, a number that is not finite) ends the step to this design, see TrustRegion and
+ * MmaSearch. An Interrupted thrown by evaluate() or a hook ends the search with the stop reason
+ * "interrupted". Other exceptions of evaluate() and of hooks pass through unchanged.
  *
  * @throws InputError if a lower bound is above its upper bound, a bound or
  *   the start is not finite, a tolerance is not positive, no evaluation is
- *   allowed, the algorithm cannot hold equalities, or there are more
+ *   allowed, the algorithm does not support equalities, or there are more
  *   equalities than variables.
  * @throws SolveError, TangledMesh or Interrupted if the first evaluation
- *   does: there is no design to return.
+ *   throws it, because there is no design to return.
  */
 OptimizationResult minimize(const DesignProblem          &problem,
                             const OptimizationParameters &parameters,

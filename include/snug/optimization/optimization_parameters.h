@@ -14,23 +14,23 @@ class SectionCheck;
 } // namespace snug
 
 namespace snug::optimization {
-/// The algorithms, both of NLopt.
+/// The algorithms of the search: TrustRegion and MmaSearch.
 enum class Algorithm
 {
-  SLSQP,
+  SQP,
   MMA
 };
 inline Names names(Algorithm)
 {
-  return {{"SLSQP", "sequential quadratic programming (Kraft, NLopt) in a trust region, for all "
-                    "constraints"},
+  return {{"SQP", "sequential quadratic programming in a trust region, for all constraints",
+           "SLSQP"},
           {"MMA", "method of moving asymptotes (Svanberg, NLopt), for inequality constraints"}};
 }
 
-/// Entries of `subsection Optimization`.
+/// This struct holds the entries of `subsection Optimization`.
 struct OptimizationParameters
 {
-  Algorithm   algorithm = Algorithm::SLSQP;
+  Algorithm   algorithm = Algorithm::SQP;
   std::string objective = "potential energy"; ///< name of a response
   Combination combine;                        ///< of the objective in the load cases
   /// response, or "load case.response", and its limit, see read_limit()
@@ -44,7 +44,8 @@ struct OptimizationParameters
   double       constraint_tolerance = 1e-8; ///< relative to the target
 
   void declare(Entries &entries);
-  /// Constraints have limits that can be read and that the algorithm takes.
+  /// Check that the constraints have limits that can be read and that the algorithm supports.
+  /// @throws InputError.
   void check(const SectionCheck &section) const;
 };
 } // namespace snug::optimization

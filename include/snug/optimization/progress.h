@@ -11,54 +11,53 @@ namespace snug::optimization {
 constexpr double steep_gradient = 1e-3;
 
 /**
- * The accepted designs of a search, the best design it has seen, and
- * whether that is enough. Knows no algorithm.
+ * This class keeps the accepted designs of a search and its best evaluated design, and decides
+ * whether the search has converged. It does not depend on the algorithm.
  */
 class Progress
 {
 public:
   using Point = std::shared_ptr<const ScaledProblem::Point>;
 
-  /// Begins at the problem's start. Keeps references to all three.
+  /// Begin at the start of the problem. Keep references to all arguments.
   Progress(const ScaledProblem          &problem,
            const OptimizationParameters &parameters,
            const Hooks                  &hooks);
 
-  /// Take note of an evaluated design, accepted or not.
+  /// Record an evaluated design, accepted or not.
   void consider(const Point &point);
 
   /**
    * Count and report an accepted design, unless it is the last one again,
-   * and say whether it ends the search: StopReason::gradient, StopReason::objective,
+   * and return whether it ends the search: StopReason::gradient, StopReason::objective,
    * StopReason::design, StopReason::none or, if the step was within the design tolerance
-   * but far from halved a violation beyond its tolerance, StopReason::round_off.
-   * Of the size of a step that is not @p full, only two in a row end the
-   * search.
+   * but did not halve a violation above its tolerance, StopReason::round_off.
+   * A small change in a step that is not @p full ends the search only if the change in the step
+   * before was small too.
    */
   StopReason accept(const Point &point, bool full);
 
   /// Call the hook with the last accepted design.
   void report() const;
 
-  /// has_gained() and the two-steps rule count from here.
+  /// Begin a run, from which has_gained() and the rule of two small changes count.
   void begin_run();
 
   /// Return whether the best design has improved since begin_run() by more than the objective
   /// tolerance or, as long as no design is feasible, has halved its violation.
   bool has_gained() const;
 
-  /// The design accepted last.
+  /// Return the design accepted last.
   const Point &iterate() const { return last; }
 
-  /// Designs accepted after the start.
+  /// Return the number of designs accepted after the start.
   unsigned int n_iterations() const { return iterations; }
 
-  /// The result of a search that ended by @p end: the best design, or the
-  /// last one if a tolerance ended it (an earlier one may be lower only by
-  /// using up the constraints' tolerance). A best design that was never
-  /// accepted, as where evaluations run out, is accepted now, so that
-  /// the result is one of the designs reported. @p failure says why the
-  /// design of StopReason::no_value has none.
+  /// Return the result of a search that ended by @p end: the last design if a tolerance ended the
+  /// search (an earlier design may have a lower objective only by a larger violation within the
+  /// tolerance of the constraints), otherwise the best design. A best design that was never
+  /// accepted, as when evaluations run out, is accepted now, so that the result is one of the
+  /// reported designs. @p failure is the message of the evaluation for StopReason::no_value.
   OptimizationResult finish(StopReason end, const std::string &failure);
 
   /// Return whether a design satisfies the constraints to their tolerance.

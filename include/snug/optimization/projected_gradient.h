@@ -4,7 +4,7 @@
 #include <vector>
 
 namespace snug::optimization {
-/// Where a variable stands between its bounds; `fixed` is at both.
+/// Position of a variable between its bounds; `fixed` is at both.
 enum class BoundState
 {
   inside,
@@ -13,14 +13,14 @@ enum class BoundState
   fixed
 };
 
-/// The gradient of a constraint that holds the design.
+/// This struct holds the gradient of an active constraint.
 struct ConstraintGradient
 {
   std::vector<double> gradient;
-  bool                pushes; ///< an inequality: its multiplier is >= 0
+  bool                pushes; ///< whether it is an inequality, with a multiplier >= 0
 };
 
-/// Result of projected_gradient().
+/// This struct is the result of projected_gradient().
 struct ProjectedGradient
 {
   double              norm;
@@ -28,20 +28,19 @@ struct ProjectedGradient
 };
 
 /**
- * The smallest norm over mu of the projected gradient of the Lagrangian,
+ * Return the minimum over mu of the norm of the projected gradient of the Lagrangian,
  * @f[ \min_\mu \| P(g + A^T \mu) \|_2, @f]
- * with P as at Iteration: what is left of the steepest descent once
- * bounds and linearized constraints have taken their share.
+ * with P as at Iteration: the part of the steepest descent that bounds and linearized constraints
+ * permit.
  *
- * The function under the minimum is convex and piecewise quadratic;
- * Newton's method on its pieces, each a least-squares problem.
- * Inequalities whose multipliers come out negative are left out, the worst
- * first. They do not come back, so that away from Karush, Kuhn and Tucker
- * points the result may be above the minimum.
+ * The square of the norm is convex and piecewise quadratic in mu. Newton's method solves a
+ * least-squares problem for each piece. Inequalities with negative multipliers are removed one
+ * after the other, that with the most negative multiplier first. They are not added again;
+ * therefore the result may be above the minimum away from the points of Karush, Kuhn and Tucker.
  *
  * @param[in] g n entries.
- * @param[in] forces rows of A, n entries; they may be linearly dependent.
- * @param[in] places n entries.
+ * @param[in] constraint_gradients rows of A with n entries, which may be linearly dependent.
+ * @param[in] at_bounds n entries.
  */
 ProjectedGradient projected_gradient(const std::vector<double>      &g,
                                      std::vector<ConstraintGradient> constraint_gradients,

@@ -10,7 +10,8 @@
 
 namespace snug::optimization {
 /**
- * A design problem in the optimizer's variables, evaluated once per design.
+ * This class states a design problem in the variables of the optimizer and evaluates each design
+ * once.
  *
  * | symbol | meaning                                                 |
  * |--------|---------------------------------------------------------|
@@ -30,52 +31,53 @@ namespace snug::optimization {
 class ScaledProblem
 {
 public:
-  /// A design and its values, in the problem's own units.
+  /// This struct holds a design and its values, in the units of the problem.
   struct Point
   {
     std::vector<double> y, x;
-    /// gains its gradients when they are asked for: rejected designs need none.
+    /// with gradients after differentiated(); rejected designs need none
     mutable Evaluation evaluation;
     double             violation = 0.; ///< max |c_j| / s_j, of c_j+ for inequalities
   };
 
   /**
-   * Check the problem and evaluate its start, moved into the bounds.
-   * @throws InputError as minimize() says; SolveError if the start has a
-   *   value that is not finite; whatever evaluate() throws.
+   * Check the problem and evaluate its start, which is moved into the bounds.
+   * @throws InputError, see minimize(); SolveError if the start has a
+   *   value that is not finite; exceptions of evaluate().
    */
   explicit ScaledProblem(const DesignProblem &problem);
 
-  /// The values at @p y. Designs asked for lately, up to 1e-13 of the
-  /// lengths, are not evaluated again: their point is returned.
-  /// @throws SolveError if one is not finite; what evaluate() throws.
+  /// Return the values at @p y. The point of a recent design that differs by at most 1e-13 of the
+  /// lengths is returned without an evaluation.
+  /// @throws SolveError if a value is not finite; exceptions of evaluate().
   std::shared_ptr<const Point> at(const std::vector<double> &y);
 
-  /// The values at @p y, where variables that enter linearly take their best values. @throws like
-  /// at().
+  /// Return the values at @p y, where the variables that enter linearly have their best values.
+  /// @throws like at().
   std::shared_ptr<const Point> settled_at(const std::vector<double> &y);
 
-  /// The values with their gradients. @throws SolveError if one is not finite; what
-  /// differentiate() throws. So do all that need gradients.
+  /// Return the values with their gradients, which are computed at the first call for a point. All
+  /// functions that need gradients call this function.
+  /// @throws SolveError if a derivative is not finite; exceptions of differentiate().
   const Evaluation &differentiated(const Point &point) const;
 
-  /// Return whether at() would answer without an evaluation.
+  /// Return whether at() needs no evaluation.
   bool is_cached(const std::vector<double> &y) const { return find(y) != nullptr; }
 
-  /// y of a design.
+  /// Return y of a design x.
   std::vector<double> scaled(const std::vector<double> &x) const;
 
-  /// w_i df/dx_i / F.
+  /// Return w_i df/dx_i / F.
   std::vector<double> gradient(const Point &point) const;
 
-  /// w_i dc_j/dx_i / s_j.
+  /// Return w_i dc_j/dx_i / s_j, one row per constraint.
   std::vector<std::vector<double>> jacobian(const Point &point) const;
 
-  /// c_j / s_j.
+  /// Return c_j / s_j.
   std::vector<double> constraints(const Evaluation &evaluation) const;
 
-  /// A constraint that changes by less in a change by the lengths, relative to its scale, has no
-  /// gradient: what is there is round-off, or as good as that.
+  /// A constraint that changes by less than this part of its scale in a step of the lengths has no
+  /// gradient: its derivatives are round-off, or negligible like round-off.
   static constexpr double no_slope = 1e-8;
 
   /// Return whether the gradient of an active constraint vanishes to round-off. A first-order
@@ -94,16 +96,16 @@ public:
   const std::vector<double>          &upper() const { return y_upper; }
   double                              objective_scale() const { return scale; }
   const std::shared_ptr<const Point> &start() const { return start_point; }
-  /// Number of variables.
+  /// Return the number of variables.
   unsigned int size() const { return static_cast<unsigned int>(lengths.size()); }
   /// Return the maximum of |d_i| over the variables that enter the functions nonlinearly.
   double length(const std::vector<double> &d) const;
   /// Return the number of variables that enter the functions nonlinearly; the others follow them.
   unsigned int n_nonlinear() const { return size() - problem.n_linear; }
-  /// The width of the bounds of variable @p i in its lengths.
+  /// Return the width of the bounds of variable @p i, relative to its length.
   double bound_width(unsigned int i) const { return y_upper[i] - y_lower[i]; }
 
-  /// Predicted values and derivatives of the scaled objective and constraints.
+  /// This struct holds predicted values and derivatives of the scaled objective and constraints.
   struct Prediction
   {
     double                           objective = 0.;
@@ -119,7 +121,7 @@ public:
   /// where.
   ProjectedGradient projected(const Prediction &at, const std::vector<BoundState> &at_bounds) const;
 
-  /// Calls of the problem's evaluate(), also those that threw.
+  /// Return the number of calls of evaluate() of the problem, including those that threw.
   unsigned int n_evaluations() const { return evaluations; }
 
 private:

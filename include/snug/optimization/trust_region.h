@@ -19,12 +19,12 @@ namespace snug::optimization {
  *
  * Until a difference of gradients is measured, B = |g| pg / R I with the projected gradient pg: the
  * step is about as long as R allows. Where responses are predicted with their curvature, no
- * differences are used and B stays that: as in the method of Levenberg and Marquardt the shortest
- * step is taken of those that gain as much.
+ * differences are used and B keeps this value: as in the method of Levenberg and Marquardt, the
+ * step is the shortest one among steps with the same gain.
  *
- * A design without a value is rejected, and R becomes a quarter of its step. Where the model has no
- * step that is better, B is forgotten once, and then the search ends by round-off. It ends by the
- * objective tolerance where a design is rejected whose predicted gain is below it.
+ * A design without a value is rejected, and R becomes a quarter of its step. If no step improves
+ * the model, B is reset once, and then the search ends by round-off. The search ends by the
+ * objective tolerance if a design is rejected whose predicted gain is below this tolerance.
  * Source: Conn, Gould, Toint, Trust-Region Methods (2000), sections 6.1 and 15.3.
  */
 class TrustRegion
@@ -45,7 +45,7 @@ public:
   std::string failure;
 
 private:
-  /// A step from the iterate and its decrease of the merit.
+  /// This struct holds a step from the iterate and its decrease of the merit.
   struct Trial
   {
     std::vector<double> d, y;

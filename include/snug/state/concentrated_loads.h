@@ -30,10 +30,11 @@ private:
   using Boundary = std::pair<unsigned int, unsigned int>; ///< body and boundary
   using Force    = elasticity::ConcentratedForce<dim>;
 
-  /// A loaded boundary on all ranks.
-  class Place;
+  class LoadedBoundary;
 
-  void place(const PlacedForce<dim> &given, unsigned int load_case, const Place &on);
+  /// Add the forces on faces of this rank that a force at a point or along a line causes.
+  /// @throws InputError for a place that is not on @p boundary.
+  void add(const PlacedForce<dim> &placed, unsigned int load_case, const LoadedBoundary &boundary);
 
   const mesh::BodyMesh<dim>                  &mesh;
   const faces::FaceShape<dim>                 shape;

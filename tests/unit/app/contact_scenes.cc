@@ -1,4 +1,4 @@
-#include <snug/app/mesh_summary.h>
+#include <snug/app/mesh_checks.h>
 #include <snug/base/errors.h>
 #include <snug/state/validity_checks.h>
 
@@ -280,7 +280,7 @@ TEST(Warnings, OfRefineWhereThatCatchesNothing)
     const SolvedScene<3> solved(two_blocks(true),
                                 {"Body lower/Refine where=" + where,
                                  "Body lower/Local refinements=2", "Body lower/Refinements=1"});
-    return app::unrefined(solved.scene, solved.mesh);
+    return app::refinement_warnings(solved.scene, solved.mesh);
   };
   EXPECT_EQ(unrefined("0.1 - x").size(), 0u);
   // no centre of a cell is as near to the face

@@ -24,13 +24,13 @@ public:
     frame[2]       = unit();
     frame[0]       = cross_product_3d(frame[2], unit());
     frame[0] /= frame[0].norm();
-    frame[1]        = cross_product_3d(frame[2], frame[0]);
-    surface.axis    = kind == Kind::sphere ? Vector() : frame[2];
-    surface.radius  = kind == Kind::cone ? 0. : between(1., 3.);
-    surface.tube    = kind == Kind::torus ? between(0.2, 0.8) : 0.;
-    surface.angle   = kind == Kind::cone ? between(0.2, 1.2) : 0.;
-    surface.convex  = seed % 2 == 0;
-    const double to = between(1., 3.);
+    frame[1]              = cross_product_3d(frame[2], frame[0]);
+    surface.axis          = kind == Kind::sphere ? Vector() : frame[2];
+    surface.radius        = kind == Kind::cone ? 0. : between(1., 3.);
+    surface.tube          = kind == Kind::torus ? between(0.2, 0.8) : 0.;
+    surface.angle         = kind == Kind::cone ? between(0.2, 1.2) : 0.;
+    surface.encloses_body = seed % 2 == 0;
+    const double to       = between(1., 3.);
     for (unsigned int i = 0; i < 8; ++i)
       for (unsigned int j = 0; j < 8; ++j)
         add(to * i / 7., j / 7.);
@@ -78,7 +78,7 @@ private:
     const Vector out = std::cos(phi) * frame[0] + std::sin(phi) * frame[1];
     sample.points.push_back(surface.centre + r * out + z * frame[2]);
     sample.at.push_back(sample.points.back());
-    sample.normals.push_back((surface.convex ? 1. : -1.) * (n_r * out + n_z * frame[2]));
+    sample.normals.push_back((surface.encloses_body ? 1. : -1.) * (n_r * out + n_z * frame[2]));
   }
 };
 } // namespace
@@ -94,7 +94,7 @@ TEST(RecognizedSurfaces, HaveThePositionAndSizeOfTheirPoints)
         const auto        found = geometry::recognized_surface(patch.sample, 1e-9);
         ASSERT_TRUE(found);
         ASSERT_EQ(found->kind, kind);
-        EXPECT_EQ(found->convex, given.convex);
+        EXPECT_EQ(found->encloses_body, given.encloses_body);
         EXPECT_NEAR(found->radius, given.radius, 1e-8);
         EXPECT_NEAR(found->tube, given.tube, 1e-8);
         EXPECT_NEAR(found->angle, given.angle, 1e-8);

@@ -50,7 +50,7 @@ GridText wall(const Vector                                               &axis,
 
 void expect_recognized(const GridText                                &grid,
                        geometry::KnownSurface<3>::Kind                kind,
-                       bool                                           convex,
+                       bool                                           encloses_body,
                        const std::function<double(const Point<3> &)> &distance)
 {
   const auto body     = make<3>(grid, grid.body());
@@ -60,10 +60,10 @@ void expect_recognized(const GridText                                &grid,
     const unsigned int index = body->known_surface(cell, face);
     ASSERT_LT(index, surfaces.size());
     EXPECT_EQ(surfaces[index].kind, kind);
-    EXPECT_EQ(surfaces[index].convex, convex);
+    EXPECT_EQ(surfaces[index].encloses_body, encloses_body);
     EXPECT_LT(std::abs(surfaces[index].distance(x)), 3e-14);
   });
-  if (kind == geometry::KnownSurface<3>::Kind::torus && convex)
+  if (kind == geometry::KnownSurface<3>::Kind::torus && encloses_body)
     expect_continuous(*body);
 }
 } // namespace
@@ -106,14 +106,14 @@ TEST(CurvedSurfaces, CirclesAreRecognized)
       const auto surfaces = body->known_surfaces();
       on_boundary<2>(*body, "top", [&](const Point<2> &, unsigned int cell, unsigned int face) {
         ASSERT_LT(body->known_surface(cell, face), surfaces.size());
-        EXPECT_TRUE(surfaces[body->known_surface(cell, face)].convex);
+        EXPECT_TRUE(surfaces[body->known_surface(cell, face)].encloses_body);
       });
     }
   // the inner circle of the ring is a hole, called free
   const auto grid = ellipse(40, 2., 2., true);
   const auto body = make<2>(grid, grid.body());
   on_boundary<2>(*body, "free", [&](const Point<2> &, unsigned int cell, unsigned int face) {
-    EXPECT_FALSE(body->known_surfaces()[body->known_surface(cell, face)].convex);
+    EXPECT_FALSE(body->known_surfaces()[body->known_surface(cell, face)].encloses_body);
   });
 }
 
@@ -176,29 +176,29 @@ TEST(CurvedSurfaces, SurfacesOfRevolutionAreRecognized)
   for (const bool simplices : {false, true})
     for (const double out : {1., -1.})
       {
-        const bool convex = out > 0.;
-        if (simplices && !convex)
+        const bool encloses_body = out > 0.;
+        if (simplices && !encloses_body)
           continue;
         const auto depth = [out](double w) { return 0.5 * out * (w - 1.); };
         expect_recognized(wall(axis, 10, simplices,
                                [&](double v, double w) {
                                  return std::array<double, 2>{{2. + depth(w), 3. * v}};
                                }),
-                          Kind::cylinder, convex,
+                          Kind::cylinder, encloses_body,
                           [&](const Point<3> &x) { return radial(x)[0] - 2.; });
         expect_recognized(wall(axis, 10, simplices,
                                [&](double v, double w) {
                                  const double t = 0.3 + 1.5 * v, r = 2. + depth(w);
                                  return std::array<double, 2>{{r * std::sin(t), r * std::cos(t)}};
                                }),
-                          Kind::sphere, convex, [&](const Point<3> &x) {
+                          Kind::sphere, encloses_body, [&](const Point<3> &x) {
                             return x.distance(Point<3>(3., -2., 1.)) - 2.;
                           });
         expect_recognized(wall(axis, 10, simplices,
                                [&](double v, double w) {
                                  return std::array<double, 2>{{1. + v + depth(w), 2. * v}};
                                }),
-                          Kind::cone, convex, [&](const Point<3> &x) {
+                          Kind::cone, encloses_body, [&](const Point<3> &x) {
                             return (radial(x)[0] - 1. - radial(x)[1] / 2.) * 2. / std::sqrt(5.);
                           });
         expect_recognized(wall(axis, 10, simplices,
@@ -207,7 +207,7 @@ TEST(CurvedSurfaces, SurfacesOfRevolutionAreRecognized)
                                  return std::array<double, 2>{
                                    {4. + r * std::sin(t), r * std::cos(t)}};
                                }),
-                          Kind::torus, convex, [&](const Point<3> &x) {
+                          Kind::torus, encloses_body, [&](const Point<3> &x) {
                             return std::hypot(radial(x)[0] - 4., radial(x)[1]) - 1.;
                           });
       }

@@ -11,7 +11,7 @@
 using namespace snug;
 using namespace snug::optimization;
 
-TEST(SlsqpFailures, StepsBackFromTangledDesignsAndArrives)
+TEST(SqpFailures, StepsBackFromTangledDesignsAndArrives)
 {
   // The valley's minimum is at x = 0.786; the first long steps land beyond.
   const auto               exact = rosenbrock_minimum();
@@ -27,7 +27,7 @@ TEST(SlsqpFailures, StepsBackFromTangledDesignsAndArrives)
   EXPECT_NE(log[0].find("cell 5 of body punch"), std::string::npos);
 }
 
-TEST(SlsqpFailures, StopsAtTheBestDesignIfTheMinimumIsTangled)
+TEST(SqpFailures, StopsAtTheBestDesignIfTheMinimumIsTangled)
 {
   const auto exact = rosenbrock_minimum();
   for (const bool as_nan : {false, true})
@@ -59,7 +59,7 @@ TEST(SlsqpFailures, StopsAtTheBestDesignIfTheMinimumIsTangled)
     }
 }
 
-TEST(SlsqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
+TEST(SqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
 {
   auto parameters                = tight();
   parameters.maximum_evaluations = 1;
@@ -80,7 +80,7 @@ TEST(SlsqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
 }
 
 /// Wherever the evaluations run out, also within a line search.
-TEST(SlsqpFailures, TheDesignFoundIsAlwaysOneOfTheIterations)
+TEST(SqpFailures, TheDesignFoundIsAlwaysOneOfTheIterations)
 {
   for (unsigned int n = 1; n < 25; ++n)
     {
@@ -99,7 +99,7 @@ TEST(SlsqpFailures, TheDesignFoundIsAlwaysOneOfTheIterations)
 }
 
 /// Beyond a hump of the constraint is a kink, above the limit, that the first step ends in.
-TEST(SlsqpFailures, StepsBackFromKinksThatViolateTheConstraints)
+TEST(SqpFailures, StepsBackFromKinksThatViolateTheConstraints)
 {
   DesignProblem problem;
   problem.lower             = {0.};
@@ -121,7 +121,7 @@ TEST(SlsqpFailures, StepsBackFromKinksThatViolateTheConstraints)
   EXPECT_NEAR(result.x[0], 0.5, 1e-6);
 }
 
-TEST(SlsqpFailures, AStartWithoutValueIsTheCallersError)
+TEST(SqpFailures, AStartWithoutValueIsTheCallersError)
 {
   auto problem = with_hole(rosenbrock_on_circle(), -10., 10.);
   EXPECT_THROW(minimize(problem, tight()), TangledMesh);
@@ -134,7 +134,7 @@ TEST(SlsqpFailures, AStartWithoutValueIsTheCallersError)
   EXPECT_THROW(minimize(problem, tight()), SolveError);
 }
 
-TEST(SlsqpFailures, OtherExceptionsPassWithTypeAndMessage)
+TEST(SqpFailures, OtherExceptionsPassWithTypeAndMessage)
 {
   struct Special : std::logic_error
   {
@@ -162,7 +162,7 @@ TEST(SlsqpFailures, OtherExceptionsPassWithTypeAndMessage)
     }
 }
 
-TEST(SlsqpFailures, ErrorsOfTheHookPassEvenSolveErrors)
+TEST(SqpFailures, ErrorsOfTheHookPassEvenSolveErrors)
 {
   for (const unsigned int failing : {0, 1, 3})
     {
@@ -175,7 +175,7 @@ TEST(SlsqpFailures, ErrorsOfTheHookPassEvenSolveErrors)
     }
 }
 
-TEST(SlsqpFailures, AnInterruptedSearchReturnsTheBestSoFar)
+TEST(SqpFailures, AnInterruptedSearchReturnsTheBestSoFar)
 {
   auto         problem = rosenbrock_on_circle();
   unsigned int calls   = 0;
@@ -198,7 +198,7 @@ TEST(SlsqpFailures, AnInterruptedSearchReturnsTheBestSoFar)
   EXPECT_EQ(minimize(problem, tight(), hooks).stop_reason, "interrupted");
 }
 
-TEST(SlsqpFailures, NoiseEndsTheSearchCloseToTheMinimum)
+TEST(SqpFailures, NoiseEndsTheSearchCloseToTheMinimum)
 {
   // A solver tolerance's worth of noise: neither a hang nor a bad design.
   const Knapsack knapsack(9);

@@ -34,7 +34,7 @@ DesignProblem parabola()
 TEST(LinearLimits, HoldTheMinimum)
 {
   const auto limited = with_limits(parabola(), {{{1., 1.}, 1.}, {{-1., 2.}, 3.}});
-  for (const auto algorithm : {Algorithm::SLSQP, Algorithm::MMA})
+  for (const auto algorithm : {Algorithm::SQP, Algorithm::MMA})
     {
       OptimizationParameters parameters;
       parameters.algorithm = algorithm;

@@ -31,6 +31,13 @@ TEST(ReadScene, FillsTheParametersOfEveryModule)
   EXPECT_EQ(scene.optimization.objective, "potential energy");
 }
 
+/// The algorithm SQP was called SLSQP.
+TEST(ReadScene, ReadsTheFormerNameOfAnAlgorithm)
+{
+  const auto scene = read_with({"Optimization/Algorithm=MMA", "Optimization/Algorithm=SLSQP"});
+  EXPECT_EQ(scene.optimization.algorithm, optimization::Algorithm::SQP);
+}
+
 TEST(ReadScene, KeepsTwoBodiesApart)
 {
   const scene::Scene scene = read_with({});

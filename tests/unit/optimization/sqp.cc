@@ -11,7 +11,7 @@
 using namespace snug;
 using namespace snug::optimization;
 
-TEST(Slsqp, SolvesQuadraticWithEqualityAndBounds)
+TEST(Sqp, SolvesQuadraticWithEqualityAndBounds)
 {
   for (const unsigned int n : {1, 2, 9, 40})
     {
@@ -24,7 +24,7 @@ TEST(Slsqp, SolvesQuadraticWithEqualityAndBounds)
     }
 }
 
-TEST(Slsqp, StaysWhereItStartsIfThatIsTheMinimum)
+TEST(Sqp, StaysWhereItStartsIfThatIsTheMinimum)
 {
   const Knapsack knapsack(9);
   auto           problem = knapsack.problem();
@@ -37,7 +37,7 @@ TEST(Slsqp, StaysWhereItStartsIfThatIsTheMinimum)
   EXPECT_LT(result.projected_gradient, 1e-7);
 }
 
-TEST(Slsqp, EndsByItsOwnToleranceWithinDefaults)
+TEST(Sqp, EndsByItsOwnToleranceWithinDefaults)
 {
   const Knapsack knapsack(16);
   const auto     result = minimize(knapsack.problem(), OptimizationParameters());
@@ -53,14 +53,14 @@ TEST(Slsqp, EndsByItsOwnToleranceWithinDefaults)
   EXPECT_GE(result.iterations + 4, result.evaluations);
 }
 
-TEST(Slsqp, FollowsRosenbrocksValleyAlongACircle)
+TEST(Sqp, FollowsRosenbrocksValleyAlongACircle)
 {
   const auto result = minimize(rosenbrock_on_circle(), tight());
   EXPECT_TRUE(result.success) << result.stop_reason;
   EXPECT_LT(distance(result.x, rosenbrock_minimum()), design_accuracy);
 }
 
-TEST(Slsqp, ReachesTheSameDesignWhateverTheUnits)
+TEST(Sqp, ReachesTheSameDesignWhateverTheUnits)
 {
   const auto   reference = minimize(rosenbrock_on_circle(), tight());
   const auto   exact     = rosenbrock_minimum();
@@ -95,7 +95,7 @@ TEST(Slsqp, ReachesTheSameDesignWhateverTheUnits)
       }
 }
 
-TEST(Slsqp, NeedsNoValueOfTheObjectiveAtTheStart)
+TEST(Sqp, NeedsNoValueOfTheObjectiveAtTheStart)
 {
   // f(start) = 0: the scale must come from the gradient.
   const Knapsack knapsack(9);
@@ -111,7 +111,7 @@ TEST(Slsqp, NeedsNoValueOfTheObjectiveAtTheStart)
   EXPECT_LT(distance(result.x, knapsack.solution()), design_accuracy);
 }
 
-TEST(Slsqp, MovesTheStartIntoTheBounds)
+TEST(Sqp, MovesTheStartIntoTheBounds)
 {
   const Knapsack knapsack(9);
   auto           problem = knapsack.problem();
@@ -130,7 +130,7 @@ TEST(Slsqp, MovesTheStartIntoTheBounds)
   EXPECT_LT(distance(result.x, knapsack.solution()), design_accuracy);
 }
 
-TEST(Slsqp, LeavesVariablesWithEqualBoundsAlone)
+TEST(Sqp, LeavesVariablesWithEqualBoundsAlone)
 {
   const Knapsack knapsack(9);
   auto           problem = knapsack.problem();
@@ -142,7 +142,7 @@ TEST(Slsqp, LeavesVariablesWithEqualBoundsAlone)
   EXPECT_LT(result.projected_gradient, 1e-5);
 }
 
-TEST(Slsqp, AsksForEachDesignOnceAndWithinTheBounds)
+TEST(Sqp, AsksForEachDesignOnceAndWithinTheBounds)
 {
   auto                          problem = rosenbrock_on_circle();
   std::set<std::vector<double>> designs;
@@ -162,7 +162,7 @@ TEST(Slsqp, AsksForEachDesignOnceAndWithinTheBounds)
   EXPECT_EQ(calls, result.evaluations);
 }
 
-TEST(Slsqp, ReportsEveryAcceptedDesignOnce)
+TEST(Sqp, ReportsEveryAcceptedDesignOnce)
 {
   std::vector<Iteration> reported;
   Hooks                  hooks;
@@ -184,7 +184,7 @@ TEST(Slsqp, ReportsEveryAcceptedDesignOnce)
   EXPECT_GT(reported.front().projected_gradient, 1e-1);
 }
 
-TEST(Slsqp, KeepsToTheNumberOfEvaluations)
+TEST(Sqp, KeepsToTheNumberOfEvaluations)
 {
   for (const unsigned int allowed : {1, 2, 3, 5, 7})
     {
@@ -197,7 +197,7 @@ TEST(Slsqp, KeepsToTheNumberOfEvaluations)
     }
 }
 
-TEST(Slsqp, NeverClaimsSuccessForAVolumeThatCannotBe)
+TEST(Sqp, NeverClaimsSuccessForAVolumeThatCannotBe)
 {
   for (const unsigned int n : {2, 16})
     for (const double tolerance : {1e-4, 1e-6, 1e-8})
@@ -213,7 +213,7 @@ TEST(Slsqp, NeverClaimsSuccessForAVolumeThatCannotBe)
       }
 }
 
-TEST(Slsqp, MeetsNonlinearConstraintsAlsoWithLooseObjectiveTolerance)
+TEST(Sqp, MeetsNonlinearConstraintsAlsoWithLooseObjectiveTolerance)
 {
   // NLopt by itself reports success with |c| = 6e-3 here and there.
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6})
@@ -226,7 +226,7 @@ TEST(Slsqp, MeetsNonlinearConstraintsAlsoWithLooseObjectiveTolerance)
     }
 }
 
-TEST(Slsqp, RejectsWrongInput)
+TEST(Sqp, RejectsWrongInput)
 {
   const Knapsack knapsack(3);
   const auto rejects = [](const DesignProblem &problem, const OptimizationParameters &parameters) {
@@ -249,7 +249,7 @@ TEST(Slsqp, RejectsWrongInput)
   rejects(knapsack.problem(), parameters);
 }
 
-TEST(Slsqp, RejectsMoreEqualitiesThanVariablesInOneLine)
+TEST(Sqp, RejectsMoreEqualitiesThanVariablesInOneLine)
 {
   auto problem     = Knapsack(2).problem();
   problem.evaluate = [inner = problem.evaluate](const std::vector<double> &x) {
@@ -272,7 +272,7 @@ TEST(Slsqp, RejectsMoreEqualitiesThanVariablesInOneLine)
 }
 
 /// Where no bound is active, the width of the bounds decides nothing.
-TEST(Slsqp, TakesTheSamePathWhateverTheBounds)
+TEST(Sqp, TakesTheSamePathWhateverTheBounds)
 {
   std::vector<std::vector<double>> paths[2];
   for (const unsigned int wide : {0, 1})
