@@ -80,25 +80,36 @@ def alone(root, build, files):
             for path in lone_files(root) if files is None or path in files]
 
 
+def parts(source, folder):
+    """Return the source of an object, or of a unity source several for clang-tidy with eight
+    files each: clang refuses a unity source that makes members of a class before the class."""
+    if source.parent.name != "Unity":
+        return [source]
+    included, result = re.findall(r'#include "(.*)"', source.read_text()), []
+    for first in range(0, len(included), 8):
+        part = folder / f"{source.parents[1].name}-{source.stem}-{first}.cxx"
+        part.write_text("".join(f"#include \"{name}\"\n" for name in included[first:first + 8]))
+        result.append(part)
+    return result
+
+
 def tidy(root, build, files):
-    """Commands for the objects of the build, whose unity sources read the
-    headers of deal.II once for several files. clang does not know all of gcc's
-    options and warnings: only those that find headers remain."""
+    """Commands for sources that include several files, and so read the headers of deal.II once.
+    clang does not know all of gcc's options and warnings: only those that find headers remain."""
     folder = build / "lint"
     folder.mkdir(exist_ok=True)
     chosen, database = [], []
-    for _, entry in entries(build):
-        of_object = pathlib.Path(entry["file"])
-        text = of_object.read_text() + str(of_object)
+    for entry, source in ((entry, source) for _, entry in entries(build)
+                          for source in parts(pathlib.Path(entry["file"]), folder)):
+        text = source.read_text() + str(source)
         if files is None or any(str(path) in text for path in files):
-            chosen.append(str(of_object))
+            chosen.append(str(source))
         words = flags(entry)
         kept = [word for before, word in zip([""] + words, words)
                 if word[:2] in ("-I", "-D") or word == "-isystem" or
                 before == "-isystem"]
-        database.append({"directory": entry["directory"], "file": str(of_object),
-                         "arguments": ["clang++", "-std=c++17", *kept, "-c",
-                                       str(of_object)]})
+        database.append({"directory": entry["directory"], "file": str(source),
+                         "arguments": ["clang++", "-std=c++17", *kept, "-c", str(source)]})
     (folder / "compile_commands.json").write_text(json.dumps(database))
     return [["clang-tidy", "--quiet", f"--config-file={root / '.clang-tidy'}",
              "-p", str(folder), name] for name in chosen]
