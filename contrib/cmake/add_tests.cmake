@@ -79,7 +79,7 @@ function(snug_add_regression_test name)
 endfunction()
 
 # snug_add_script_test(name LABELS label... [SAMPLE n] [NIGHT] SCRIPT file.py [arguments]): a test
-# that is a Python program; it fails with its exit status. Runs of snug on one rank may share a
+# that is a Python program; it fails with its exit status, and is skipped with the status 77. Runs of snug on one rank may share a
 # start of stability.many. With SAMPLE the test takes one of n cases (sample() in
 # contrib/lib/runs.py), and the test night.<name> takes all. NIGHT leaves out the test of the
 # sample. Tests of the night run with contrib/test --night only.
@@ -93,6 +93,7 @@ function(snug_add_script_test name)
   if(ARG_SAMPLE OR ARG_NIGHT)
     add_test(NAME night.${name} CONFIGURATIONS night ${command})
     set_tests_properties(night.${name} PROPERTIES LABELS "night;${ARG_LABELS}" TIMEOUT 3000
+                         SKIP_RETURN_CODE 77
                          ENVIRONMENT "${environment}")
   endif()
   if(NOT ARG_NIGHT)
@@ -101,6 +102,7 @@ function(snug_add_script_test name)
     endif()
     add_test(NAME ${name} ${command})
     set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 300
+                         SKIP_RETURN_CODE 77
                          ENVIRONMENT "${environment}")
   endif()
 endfunction()

@@ -5,12 +5,13 @@
 repository=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 
 # To build and run, with gmsh and OpenCASCADE for CAD files. openblas-serial makes dense kernels 3 to 10 times faster
-# than the reference BLAS; libnlopt-dev has the CMake package, -cxx- the header.
+# than the reference BLAS; libnlopt-dev has the CMake package, -cxx- the header. Programs with
+# OpenCASCADE link with fontconfig, but the packages of OpenCASCADE do not depend on its library.
 # shellcheck disable=SC2034
 run_packages=(g++ cmake ninja-build openmpi-bin libdeal.ii-dev libnlopt-dev
   libnlopt-cxx-dev nlohmann-json3-dev zlib1g-dev libopenblas0-serial gmsh
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
-  libocct-ocaf-dev libocct-visualization-dev libocct-data-exchange-dev
+  libocct-ocaf-dev libocct-visualization-dev libocct-data-exchange-dev libfontconfig-dev
   python3 python3-matplotlib python3-vtk9)
 
 # deal.II of Debian 13 links with mold, but its package does not depend on mold.
@@ -18,7 +19,10 @@ grep -qs '^VERSION_ID="12"' /etc/os-release || run_packages+=(mold)
 
 # To test as well. GTest's CMake package refuses to load without gmock.
 # shellcheck disable=SC2034
-test_packages=(libgtest-dev libgmock-dev clang-format-19 clang-tidy python3-scipy calculix-ccx)
+test_packages=(git libgtest-dev libgmock-dev clang-format-19 clang-tidy python3-scipy)
+
+# Debian 13 has no CalculiX: tests that compare with it are skipped there (contrib/lib/calculix.py).
+grep -qs '^VERSION_ID="13"' /etc/os-release || test_packages+=(calculix-ccx)
 
 # One thread per rank, and more ranks than cores allowed (doc/cluster.md).
 set -a

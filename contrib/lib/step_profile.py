@@ -1,15 +1,16 @@
-"""Read profile.step by the program gmsh, and evaluate patches of cylinders without Snug."""
+"""Read profile.step by the program gmsh and as text, and evaluate patches of cylinders without Snug."""
 
 import csv
 import math
 import pathlib
+import re
 import subprocess
 import tempfile
 
 
 def step_nodes(path, size):
-    """Return the nodes of Gmsh's mesh of the faces of a STEP file. The nodes lie on the surfaces as
-    OpenCASCADE has read them; elements have at most the size @p size."""
+    """Return the nodes of Gmsh's mesh of the faces of a STEP file, in mm. The nodes lie on the surfaces
+    as OpenCASCADE has read them; elements have at most the size @p size, in mm."""
     with tempfile.TemporaryDirectory() as folder:
         script, mesh = pathlib.Path(folder, "faces.geo"), pathlib.Path(folder, "faces.msh")
         script.write_text('SetFactory("OpenCASCADE");\n'
@@ -23,10 +24,37 @@ def step_nodes(path, size):
             for line in lines[first:first + int(lines[first - 1])]]
 
 
+def step_text(path):
+    """Return the text of a STEP file without blanks and ends of lines."""
+    return "".join(pathlib.Path(path).read_text(encoding="utf-8").split())
+
+
 def face_names(path):
     """Return the names of the faces of a STEP file."""
-    text = pathlib.Path(path).read_text(encoding="utf-8").replace("\n", "")
-    return [part.split("'")[1] for part in text.split("ADVANCED_FACE(")[1:]]
+    return [part.split("'")[1] for part in step_text(path).split("ADVANCED_FACE(")[1:]]
+
+
+def step_points(path):
+    """Return the points in the text of a STEP file, in the unit of the file."""
+    return [tuple(map(float, numbers.split(","))) for numbers in
+            re.findall(r"CARTESIAN_POINT\('',\(([^,)]+,[^,)]+,[^,)]+)\)\)", step_text(path))]
+
+
+def step_unit(path):
+    """Return the unit of length that the text of a STEP file names, in mm."""
+    text = step_text(path)
+
+    def size(number):
+        unit = re.search(rf";#{number}=([^;]*)", text)[1]
+        found = re.search(r"CONVERSION_BASED_UNIT\('\w+',#(\d+)\)", unit)
+        if found:
+            factor, base = re.search(
+                rf";#{found[1]}=LENGTH_MEASURE_WITH_UNIT\(([^,]*),#(\d+)\)", text).groups()
+            return float(factor) * size(base)
+        prefix = re.fullmatch(r"\(LENGTH_UNIT\(\)NAMED_UNIT\(\*\)SI_UNIT\((.*),\.METRE\.\)\)", unit)[1]
+        return {"$": 1e3, ".KILO.": 1e6, ".CENTI.": 10., ".MILLI.": 1., ".MICRO.": 1e-3}[prefix]
+
+    return size(re.search(r"GLOBAL_UNIT_ASSIGNED_CONTEXT\(\(#(\d+),", text)[1])
 
 
 def spline(points, degree, s):

@@ -16,6 +16,7 @@
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPConstruct.hxx>
 #include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
@@ -25,6 +26,7 @@
 #include <TDocStd_Document.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
+#include <UnitsMethods.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
@@ -224,7 +226,11 @@ void write(const std::string &path, const std::vector<SplineFace> &faces)
       TDataStd_Name::Set(shapes->AddShape(made.back(), false), face.name.c_str());
     }
   STEPCAFControl_Writer writer;
-  bool                  done = writer.Transfer(document, STEPControl_AsIs);
+  // OpenCASCADE 7.8 reads "write.step.unit" for the unit that the file names, but converts the
+  // numbers to the unit of the model, which would be mm.
+  writer.ChangeWriter().Model()->SetWriteLengthUnit(
+    UnitsMethods::GetLengthFactorValue(Interface_Static::IVal("write.step.unit")));
+  bool done = writer.Transfer(document, STEPControl_AsIs);
   for (unsigned int f = 0; f < faces.size(); ++f)
     set_name(writer, made[f], faces[f].name);
   done = done && writer.Write(path.c_str()) == IFSelect_RetDone;

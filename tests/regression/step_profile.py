@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The program gmsh reads profile.step, and its points lie on the design: step_profile.py SNUG.
+"""The program gmsh reads profile.step, and its points lie on the design: step_profile.py SNUG. Its
+text names the unit of the scene.
 
 The tread of prm/step-roller.prm on a coarse mesh has control points at given heights. The design is
 evaluated without Snug, from control-points.csv."""
@@ -15,7 +16,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "contrib" / "lib"))
 
-from step_profile import Crown, face_names, step_nodes  # noqa: E402
+from step_profile import Crown, face_names, step_nodes, step_points, step_unit  # noqa: E402
 
 COARSE = ["Task=sensitivity", "Gradient/Compare=false", "Body rim/Element size=8",
           "Body rim/Face sizes=tread: 4", "Body rim/Local refinements=0",
@@ -73,12 +74,18 @@ class Profile(unittest.TestCase):
 
     def test_sections_are_swept(self):
         scene = "tests/scenes/ground-profile.prm"
-        run(scene, ["Task=sensitivity", "Gradient/Compare=false", "Thickness=0.5", "Units=m, N"], self.output)
         step = self.output / "profile.step"
-        nodes = step_nodes(step, 200)  # in mm
-        for axis, lower, upper in ((0, 0, 1000), (1, 1000, 1000), (2, 0, 500)):
-            self.assertAlmostEqual(min(x[axis] for x in nodes), lower, places=4)
-            self.assertAlmostEqual(max(x[axis] for x in nodes), upper, places=4)
+        for unit, size in (("mm", 1.), ("m", 1e3), ("in", 25.4), ("um", 1e-3)):
+            run(scene, ["Task=sensitivity", "Gradient/Compare=false", "Thickness=0.5", f"Units={unit}, N"],
+                self.output)
+            self.assertEqual(step_unit(step), size)
+            # Control points of x, and both ends of z, in the unit of the scene
+            points = step_points(step)
+            self.assertEqual([max(x[axis] for x in points) for axis in (0, 2)], [1, 0.5])
+            nodes = step_nodes(step, 0.2 * size)
+            for axis, lower, upper in ((0, 0, 1), (1, 1, 1), (2, 0, 0.5)):
+                self.assertAlmostEqual(min(x[axis] for x in nodes) / size, lower, places=7)
+                self.assertAlmostEqual(max(x[axis] for x in nodes) / size, upper, places=7)
         run(scene, ["Task=sensitivity", "Output/Profile deviation=0"], self.output)
         self.assertFalse(step.exists())
 

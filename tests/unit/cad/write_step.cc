@@ -17,9 +17,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <regex>
 
 namespace snug {
 namespace {
@@ -42,14 +45,64 @@ std::map<std::string, TopoDS_Face> read_faces(const std::string &path)
   return result;
 }
 
-std::map<std::string, TopoDS_Face> written(const std::vector<SplineFace> &faces,
-                                           const std::string             &unit = "mm")
+/// A STEP file of faces as OpenCASCADE reads it, and its text without blanks.
+struct Written
+{
+  std::map<std::string, TopoDS_Face> faces;
+  std::string                        text;
+};
+
+Written write_and_read(const std::vector<SplineFace> &faces, const std::string &unit)
 {
   const std::string path = std::filesystem::temp_directory_path() /
                            ("snug-write-step-" + std::to_string(getpid()) + ".step");
   cad::write_step(path, unit, faces);
-  const auto result = read_faces(path);
+  Written       result{read_faces(path), ""};
+  std::ifstream file(path);
+  for (std::string word; file >> word;)
+    result.text += word;
   std::filesystem::remove(path);
+  return result;
+}
+
+std::map<std::string, TopoDS_Face> written(const std::vector<SplineFace> &faces)
+{
+  return write_and_read(faces, "mm").faces;
+}
+
+/// Return what the entity with this number is in the text of a STEP file.
+std::string entity(const std::string &text, const std::string &number)
+{
+  const std::string head  = ";#" + number + "=";
+  const auto        found = text.find(head);
+  EXPECT_NE(found, std::string::npos) << number;
+  if (found == std::string::npos)
+    return "";
+  const auto begin = found + head.size();
+  return text.substr(begin, text.find(';', begin) - begin);
+}
+
+/// Return the unit of length in the text of a STEP file. Numbers of other entities are replaced by
+/// these entities.
+std::string unit_in(const std::string &text)
+{
+  std::smatch found;
+  EXPECT_TRUE(
+    std::regex_search(text, found, std::regex(R"(GLOBAL_UNIT_ASSIGNED_CONTEXT\(\(#(\d+),)")));
+  std::string      unit = entity(text, found[1]);
+  const std::regex reference(R"(#(\d+))");
+  while (std::regex_search(unit, found, reference))
+    unit = found.prefix().str() + entity(text, found[1]) + found.suffix().str();
+  return unit;
+}
+
+/// Return the maximum x of the points in the text of a STEP file.
+double maximum_x(const std::string &text)
+{
+  const std::regex point(R"(CARTESIAN_POINT\('',\(([^,)]+),[^,)]+,[^,)]+\)\))");
+  double           result = 0.;
+  for (std::sregex_iterator at(text.begin(), text.end(), point); at != std::sregex_iterator(); ++at)
+    result = std::max(result, std::stod((*at)[1]));
   return result;
 }
 
@@ -128,14 +181,41 @@ TEST(WriteStep, NumbersHaveTheUnitOfTheScene)
   for (const auto &[unit, factor] : std::map<std::string, double>{
          {"mm", 1.}, {"m", 1000.}, {"in", 25.4}, {"um", 1e-3}, {"parsec", 1.}})
     {
-      const auto                faces = written({bilinear("part.crown")}, unit);
-      const BRepAdaptor_Surface surface(faces.at("part.crown"));
+      const auto                file = write_and_read({bilinear("part.crown")}, unit);
+      const BRepAdaptor_Surface surface(file.faces.at("part.crown"));
       const gp_Pnt              x = surface.Value(surface.LastUParameter(), 0.);
       EXPECT_NEAR(x.X(), 14. * factor, 1e-9 * factor) << unit;
     }
   EXPECT_FALSE(cad::is_step_unit("parsec"));
   EXPECT_TRUE(cad::is_step_unit("in"));
   EXPECT_STREQ(Interface_Static::CVal("xstep.cascade.unit"), "MM");
+}
+
+/// The text names the unit of the scene, and has the numbers of the scene.
+TEST(WriteStep, TextNamesTheUnitOfTheScene)
+{
+  const auto metric = [](const std::string &prefix) {
+    return "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(" + prefix + ",.METRE.))";
+  };
+  const auto converted = [&metric](const std::string &name, const std::string &number) {
+    return "(CONVERSION_BASED_UNIT('" + name + "',LENGTH_MEASURE_WITH_UNIT(" + number + "," +
+           metric(".MILLI.") +
+           "))LENGTH_UNIT()NAMED_UNIT(DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)))";
+  };
+  for (const auto &[unit, expected] :
+       std::map<std::string, std::string>{{"mm", metric(".MILLI.")},
+                                          {"m", metric("$")},
+                                          {"cm", metric(".CENTI.")},
+                                          {"um", metric(".MICRO.")},
+                                          {"km", metric(".KILO.")},
+                                          {"in", converted("INCH", "25.4")},
+                                          {"ft", converted("FOOT", "304.8")},
+                                          {"parsec", metric(".MILLI.")}})
+    {
+      const auto text = write_and_read({bilinear("part.crown")}, unit).text;
+      EXPECT_EQ(unit_in(text), expected) << unit;
+      EXPECT_EQ(maximum_x(text), 14.) << unit;
+    }
 }
 
 /// A closed curve swept along z is a tube, whose length is that of the polygon of fine steps.

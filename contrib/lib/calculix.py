@@ -1,0 +1,36 @@
+"""Find CalculiX, and read its nodal results from a file .frd."""
+
+import platform
+import shutil
+import sys
+
+SKIPPED = 77  # SKIP_RETURN_CODE in tests/CMakeLists.txt
+
+
+def require_ccx():
+    """End the program if the program ccx is missing: as a skipped test on Debian 13, which has no
+    package calculix-ccx, and with an error on other systems."""
+    if shutil.which("ccx"):
+        return
+    system = platform.freedesktop_os_release()
+    if (system["ID"], system.get("VERSION_ID")) == ("debian", "13"):
+        print("skipped: the program ccx is missing, and Debian 13 has no package calculix-ccx")
+        sys.exit(SKIPPED)
+    raise SystemExit("the program ccx is missing. On Debian 12: apt install calculix-ccx")
+
+
+def field(path, name):
+    """Return {node: components} of the last block called @p name, such as DISP or CONTACT."""
+    values, is_inside = {}, False
+    for line in path.read_text().splitlines():
+        if line.startswith(" -4"):
+            is_inside = line.split()[1] == name
+            if is_inside:
+                values = {}
+        elif line.startswith(" -3"):
+            is_inside = False
+        elif is_inside and line.startswith(" -1"):
+            # a mark of 3 characters, a node of 10 and numbers of 12
+            numbers = [line[i:i + 12] for i in range(13, len(line.rstrip()), 12)]
+            values[int(line[3:13])] = [float(number) for number in numbers]
+    return values
