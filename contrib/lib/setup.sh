@@ -18,7 +18,8 @@ grep -qs '^VERSION_ID="12"' /etc/os-release || run_packages+=(mold)
 
 # To test as well. GTest's CMake package refuses to load without gmock.
 # shellcheck disable=SC2034
-test_packages=(libgtest-dev libgmock-dev clang-format-19 clang-tidy python3-scipy calculix-ccx)
+test_packages=(libgtest-dev libgmock-dev clang-format-19 clang-tidy shellcheck python3-scipy
+  calculix-ccx)
 
 # One thread per rank, and more ranks than cores allowed (doc/cluster.md).
 set -a
