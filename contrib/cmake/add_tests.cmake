@@ -79,10 +79,10 @@ function(snug_add_regression_test name)
 endfunction()
 
 # snug_add_script_test(name LABELS label... [SAMPLE n] [NIGHT] SCRIPT file.py [arguments]): a test
-# that is a Python program; it fails with its exit status, and is skipped with the status 77. Runs of snug on one rank may share a
-# start of stability.many. With SAMPLE the test takes one of n cases (sample() in
-# contrib/lib/runs.py), and the test night.<name> takes all. NIGHT leaves out the test of the
-# sample. Tests of the night run with contrib/test --night only.
+# that is a Python program; it fails with its exit status, and is skipped with the status 77.
+# Runs of snug on one rank may share a start of stability.many. With SAMPLE the test takes one of
+# n cases (sample() in contrib/lib/runs.py), and the test night.<name> takes all. NIGHT leaves out
+# the test of the sample. Tests of the night run with contrib/test --night only.
 function(snug_add_script_test name)
   cmake_parse_arguments(ARG "NIGHT" "SAMPLE" "LABELS;SCRIPT" ${ARGN})
   list(POP_FRONT ARG_SCRIPT script)

@@ -1,4 +1,4 @@
-#include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/feti/initial_active_set.h>
 #include <snug/state/certificate.h>
 
@@ -40,20 +40,22 @@ Torn::Torn(const state::StateSolver<3> &solver,
     pairs.of_row.push_back(is_contact ? 0 : 1);
 }
 
-/// Linearize anew with these factors of subdomains, or null ones to be made.
-void Torn::linearize(feti::FactorsOfSubdomains factors)
+/// Linearize anew with the operators of an earlier linearization; null ones are computed.
+void Torn::linearize(feti::SharedOperators shared)
 {
   problem.reset();
   linearization.reset();
   const auto &now = dual.linearization();
-  linearization   = std::make_unique<feti::Linearization>(structure, now.subdomains(), now.B(),
-                                                          {std::move(factors), soft_modes, {}});
+  linearization =
+    std::make_unique<feti::Linearization>(structure, now.subdomains(), now.B(), std::move(shared));
   problem = std::make_unique<feti::LoadedProblem>(*linearization, dual.loads(), dual.g(), &pairs);
 }
 
 void Torn::factorize()
 {
-  linearize(feti::FactorsOfSubdomains(dual.loads().size()));
+  feti::SharedOperators operators(narrow<unsigned int>(dual.loads().size()));
+  operators.soft_modes = soft_modes;
+  linearize(std::move(operators));
 }
 
 void Torn::solve()
@@ -127,10 +129,10 @@ std::vector<Stage> Torn::stages(const Seconds &whole)
   const Seconds precondition = median_time(repeats, [&]() { face->precondition(x); });
   const Seconds project      = median_time(repeats, [&]() { face->project(y); });
   const Seconds fresh        = median_time(repeats, make_face) - project;
-  const auto    factors      = linearization->factors();
+  const auto    shared       = linearization->shared();
 
   // Last, because a new linearization ends the face.
-  const Seconds coarse = median_time(repeats, [&]() { linearize(factors); });
+  const Seconds coarse = median_time(repeats, [&]() { linearize(shared); });
 
   std::vector<Stage> stages = {factorization_of_inverses(),
                                factorization_of_interiors(),

@@ -42,7 +42,7 @@ public:
   std::vector<Stage> stages(const Seconds &whole);
 
 private:
-  void  linearize(feti::FactorsOfSubdomains factors);
+  void  linearize(feti::SharedOperators shared);
   Stage factorization_of_inverses() const;
   Stage factorization_of_interiors() const;
 

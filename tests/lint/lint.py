@@ -14,6 +14,7 @@ import links
 import modules
 import options
 import program
+import shell
 import size
 import words
 
@@ -25,6 +26,7 @@ CHECKS = {
     "words": lambda root, given: words.check(root),
     "commits": lambda root, given: commits.check(root, given.base),
     "links": lambda root, given: links.check(root),
+    "shell": lambda root, given: shell.check(root),
     "options": lambda root, given: options.check(root),
     "scenes": lambda root, given: program.check_scenes(root, given.program),
     "parameters": lambda root, given: program.check_parameters(root, given.program),

@@ -18,6 +18,7 @@ import links
 import modules
 import options
 import program
+import shell
 import size
 import words
 
@@ -163,6 +164,26 @@ class Format(Tree):
         self.expect(formatting.check(self.root))
         self.write("source/b.cc", "int a;\nint  b;\n")
         self.expect(formatting.check(self.root), "source/b.cc:2: ")
+
+
+class Shell(Tree):
+    SCRIPT = "#!/usr/bin/env bash\nset -eu\nusage='the {} GAMG, rigid motions'\necho \"$usage\"\n"
+
+    def test_a_quote_that_an_apostrophe_ends_is_found(self):
+        self.write("contrib/good", self.SCRIPT.format("gears of PETSc:"))
+        self.write("contrib/notes", "It's no script.\n")
+        self.expect(shell.check(self.root))
+        self.write("contrib/bench", self.SCRIPT.format("PETSc's"))
+        found = [message for message in shell.check(self.root) if "apostrophe" in message]
+        self.expect(found, "contrib/bench:3:")
+
+    def test_a_part_of_a_script_is_checked(self):
+        self.write("contrib/lib/setup.sh", "# shellcheck shell=bash\ncd $1 || exit\n")
+        self.expect(shell.check(self.root), "contrib/lib/setup.sh:2:")
+
+    def test_a_missing_program_is_told(self):
+        with unittest.mock.patch.dict(os.environ, PATH=""):
+            self.expect(shell.check(self.root), "contrib:1: no shellcheck")
 
 
 class Alone(Tree):
