@@ -39,12 +39,14 @@ TEST(Assertions, PrintBothNumbers)
   const unsigned int  three = 3;
   const unsigned long four  = 4;
   EXPECT_EQ(internal_error([&]() { SNUG_ASSERT_EQUAL(four, three + 1); }), "");
-  EXPECT_NE(internal_error([&]() { SNUG_ASSERT_EQUAL(four, three); })
-              .find("the values are 4 and 3 (violated: four == three)"),
+  EXPECT_NE(internal_error([&]() {
+              SNUG_ASSERT_EQUAL(four, three);
+            }).find("the values are 4 and 3 (violated: four == three)"),
             std::string::npos);
   EXPECT_EQ(internal_error([&]() { SNUG_ASSERT_BELOW(three, four); }), "");
-  EXPECT_NE(internal_error([&]() { SNUG_ASSERT_BELOW(four, four); })
-              .find("the values are 4 and 4 (violated: four < four)"),
+  EXPECT_NE(internal_error([&]() {
+              SNUG_ASSERT_BELOW(four, four);
+            }).find("the values are 4 and 4 (violated: four < four)"),
             std::string::npos);
 }
 
