@@ -244,9 +244,9 @@ run_once = once(run)
 
 
 @once
-def solve(scene_file, entries=(), ranks=1):
-    """Return the Result of a scene; throw RunError if the program fails."""
-    done = run(scene_file, entries, ranks)
+def solve(scene_file, entries=(), ranks=1, **options):
+    """Return the Result of a scene; throw RunError if the program fails. Options are those of run()."""
+    done = run(scene_file, entries, ranks, **options)
     if done.result is None:
         raise RunError(f"{scene_file}: status {done.status}, {done.message}")
     return done.result

@@ -2,8 +2,8 @@
 // and MPI (the profiling interface of the MPI standard) and takes its stages from
 // MPI_Pcontrol(1, name) and MPI_Pcontrol(-1, name). MPI_Finalize writes JSON to the file that
 // SNUG_MESSAGES names: of each stage the most of any rank of messages between two ranks, of their
-// bytes, of collective calls and of the bytes a rank puts into them. Messages that collective calls
-// are made of inside of MPI are not counted.
+// bytes, of collective calls of several ranks and of the bytes a rank puts into them. Messages that
+// collective calls are made of inside of MPI are not counted.
 
 #include <mpi.h>
 
@@ -49,8 +49,13 @@ void count_message(long long bytes)
   counts().now().message_bytes += bytes;
 }
 
-void count_collective(int count, MPI_Datatype type)
+/// A rank alone sends nothing.
+void count_collective(int count, MPI_Datatype type, MPI_Comm comm)
 {
+  int n_ranks = 0;
+  PMPI_Comm_size(comm, &n_ranks);
+  if (n_ranks == 1)
+    return;
   counts().now().collectives += 1;
   counts().now().collective_bytes += bytes_of(count, type);
 }
@@ -140,19 +145,19 @@ int MPI_Startall(int n, MPI_Request requests[])
 
 int MPI_Allreduce(const void *from, void *to, int n, MPI_Datatype t, MPI_Op op, MPI_Comm c)
 {
-  count_collective(n, t);
+  count_collective(n, t, c);
   return PMPI_Allreduce(from, to, n, t, op, c);
 }
 
 int MPI_Reduce(const void *from, void *to, int n, MPI_Datatype t, MPI_Op op, int root, MPI_Comm c)
 {
-  count_collective(n, t);
+  count_collective(n, t, c);
   return PMPI_Reduce(from, to, n, t, op, root, c);
 }
 
 int MPI_Bcast(void *b, int n, MPI_Datatype t, int root, MPI_Comm c)
 {
-  count_collective(n, t);
+  count_collective(n, t, c);
   return PMPI_Bcast(b, n, t, root, c);
 }
 
@@ -164,7 +169,7 @@ int MPI_Allgather(const void  *from,
                   MPI_Datatype u,
                   MPI_Comm     c)
 {
-  count_collective(n, t);
+  count_collective(n, t, c);
   return PMPI_Allgather(from, n, t, to, m, u, c);
 }
 
