@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 
 #include <deal.II/base/mpi.h>
@@ -103,7 +104,7 @@ TEST(Work, AStateIsFoundAgainAfterAnother)
     {
       problem.solver.feti(state);
     }
-  catch (const dealii::ExceptionBase &)
+  catch (const InternalError &)
     {
       refused = true;
     }
