@@ -178,7 +178,8 @@ TEST(ResponseEstimate, SeesFacesAndTheirMeanDisplacement)
   scene.bodies[0].loads[face_index(1, 1)].factor = [](const dealii::Point<2> &x) {
     return std::cos(dealii::numbers::PI * x[0]) + 1.;
   };
-  const auto found = effectivities(scene, 4, {named("displacement", "punch.top")});
+  // On this face the estimate without the field derivative is four times the error.
+  const auto found = effectivities(scene, 4, {named("displacement", "foundation.right")});
   EXPECT_GT(found[0], 0.7);
   EXPECT_LT(found[0], 1.4);
 }
