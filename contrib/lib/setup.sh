@@ -19,7 +19,7 @@ grep -qs '^VERSION_ID="12"' /etc/os-release || run_packages+=(mold)
 
 # To test as well. GTest's CMake package refuses to load without gmock.
 # shellcheck disable=SC2034
-test_packages=(git libgtest-dev libgmock-dev clang-format-19 clang-tidy shellcheck python3-scipy)
+test_packages=(git libgtest-dev libgmock-dev clang-format-19 clang-tidy-19 shellcheck python3-scipy)
 
 # Debian 13 has no CalculiX: tests that compare with it are skipped there (contrib/lib/calculix.py).
 grep -qs '^VERSION_ID="13"' /etc/os-release || test_packages+=(calculix-ccx)

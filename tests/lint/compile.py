@@ -111,7 +111,7 @@ def tidy(root, build, files):
         database.append({"directory": entry["directory"], "file": str(source),
                          "arguments": ["clang++", "-std=c++17", *kept, "-c", str(source)]})
     (folder / "compile_commands.json").write_text(json.dumps(database))
-    return [["clang-tidy", "--quiet", f"--config-file={root / '.clang-tidy'}",
+    return [["clang-tidy-19", "--quiet", f"--config-file={root / '.clang-tidy'}",
              "-p", str(folder), name] for name in chosen]
 
 
