@@ -148,7 +148,7 @@ cores()
 }
 
 # Compilers at a time: one per core, but each has 2 GiB (a unity file with
-# deal.II headers takes about 1.5).
+# deal.II headers takes up to 1.7).
 jobs_at_once()
 {
   local jobs memory
