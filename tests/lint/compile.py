@@ -80,15 +80,18 @@ def alone(root, build, files):
             for path in lone_files(root) if files is None or path in files]
 
 
-def parts(source, folder):
-    """Return the source of an object, or of a unity source several for clang-tidy with eight
-    files each: clang refuses a unity source that makes members of a class before the class."""
-    if source.parent.name != "Unity":
-        return [source]
-    included, result = re.findall(r'#include "(.*)"', source.read_text()), []
-    for first in range(0, len(included), 8):
+def parts(source, folder, files):
+    """Return sources for clang-tidy that include the files of an object, or those that are asked
+    for, eight in each: clang refuses a unity source that makes members of a class before the
+    class."""
+    names = [str(source)]
+    if source.parent.name == "Unity":
+        names = re.findall(r'#include "(.*)"', source.read_text())
+    names = [name for name in names if files is None or pathlib.Path(name) in files]
+    result = []
+    for first in range(0, len(names), 8):
         part = folder / f"{source.parents[1].name}-{source.stem}-{first}.cxx"
-        part.write_text("".join(f"#include \"{name}\"\n" for name in included[first:first + 8]))
+        part.write_text("".join(f"#include \"{name}\"\n" for name in names[first:first + 8]))
         result.append(part)
     return result
 
@@ -98,21 +101,18 @@ def tidy(root, build, files):
     clang does not know all of gcc's options and warnings: only those that find headers remain."""
     folder = build / "lint"
     folder.mkdir(exist_ok=True)
-    chosen, database = [], []
-    for entry, source in ((entry, source) for _, entry in entries(build)
-                          for source in parts(pathlib.Path(entry["file"]), folder)):
-        text = source.read_text() + str(source)
-        if files is None or any(str(path) in text for path in files):
-            chosen.append(str(source))
+    database = []
+    for _, entry in entries(build):
         words = flags(entry)
         kept = [word for before, word in zip([""] + words, words)
                 if word[:2] in ("-I", "-D") or word == "-isystem" or
                 before == "-isystem"]
-        database.append({"directory": entry["directory"], "file": str(source),
-                         "arguments": ["clang++", "-std=c++17", *kept, "-c", str(source)]})
+        for part in parts(pathlib.Path(entry["file"]), folder, files):
+            database.append({"directory": entry["directory"], "file": str(part),
+                             "arguments": ["clang++", "-std=c++17", *kept, "-c", str(part)]})
     (folder / "compile_commands.json").write_text(json.dumps(database))
     return [["clang-tidy-19", "--quiet", f"--config-file={root / '.clang-tidy'}",
-             "-p", str(folder), name] for name in chosen]
+             "-p", str(folder), entry["file"]] for entry in database]
 
 
 def most_changed(root, n):

@@ -41,8 +41,8 @@ public:
   Recorded variable(double value);
 
   /// Return the result of an operation on @p a and @p b, constants or numbers of one recording,
-  /// with its derivatives with respect to both. This function is not inline, because it is called
-  /// by each operation of each formula, which would take three times as long to compile.
+  /// with its derivatives with respect to both. This function is not inline, because the rows of
+  /// nodal contact would take a sixth longer to compile.
   static Recorded
   operation(double value, const Recorded &a, double by_a, const Recorded &b, double by_b);
 
