@@ -309,8 +309,9 @@ CHECKS = [
     Check("responses", ["Accuracy/Estimate=responses"], even_stress, 0.),
     Check("responses", ["Accuracy/Estimate=none"],
           same("state.energy", less=("times.accuracy",)), 1e-12, []),
-    Check("solver-entries", ["Solver/Factorization=MUMPS"],
-          same(*STATE, *F_MULTS), 1e-6, []),
+    Check("solver-entries", ["Solver/Factorization=MUMPS"], same(*STATE), 1e-6, []),
+    # Rounding, which depends on the kernels of the BLAS for the processor, changes the iterations.
+    Check("solver-entries", ["Solver/Factorization=MUMPS"], same(*F_MULTS), 0.1, []),
     Check("solver-entries", ["Solver/Preconditioner=lumped"],
           same(*STATE, more=F_MULTS), 1e-5, []),
     Check("solver-entries", ["Solver/Preconditioner=none"],
