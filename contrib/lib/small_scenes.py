@@ -312,8 +312,7 @@ CHECKS = [
     Check("solver-entries", ["Solver/Factorization=MUMPS"], same(*STATE), 1e-6, []),
     # Rounding, which depends on the kernels of the BLAS for the processor, changes the iterations.
     Check("solver-entries", ["Solver/Factorization=MUMPS"], same(*F_MULTS), 0.1, []),
-    Check("solver-entries", ["Solver/Preconditioner=lumped"],
-          same(*STATE, more=F_MULTS), 1e-5, []),
+    Check("solver-entries", ["Solver/Preconditioner=lumped"], same(*STATE, more=F_MULTS), 1e-5, []),
     Check("solver-entries", ["Solver/Preconditioner=none"],
           same(*STATE, more=F_MULTS), 1e-5, ["Solver/Preconditioner=lumped"]),
     Check("solver-entries", ["Solver/Scaling=multiplicity"],
