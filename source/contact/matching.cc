@@ -1,7 +1,6 @@
 #include <snug/contact/matching.h>
 #include <snug/contact/nearest_face.h>
 #include <snug/contact/projection.h>
-#include <snug/faces/nodal_normals.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -27,19 +26,19 @@ Matching matching(const PairGeometry<dim> &pair)
 {
   const auto               &x = pair.positions;
   const SearchCriteria<dim> criteria(pair);
-  using Normals = faces::NodalNormals<dim>;
-  const Normals of_slave(pair.surface, pair.sides.slave, pair.shape, x, &pair.held);
-  const Normals of_master(pair.surface, pair.sides.master, pair.shape, x, &pair.held);
-  Matching      result;
+  const faces::NodalNormals<dim> of_slave(pair.surface, pair.sides.slave, pair.shape, x,
+                                          &pair.held);
+  const PairNormals<dim>         normals(pair);
+  Matching                       result;
   for (const Projection<dim> &projection :
-       project(pair.surface, pair.sides, pair.shape, x, of_master.normals()))
+       project(pair.surface, pair.sides, pair.shape, x, normals.values()))
     {
       const auto            &n = of_slave.normals()[projection.slave];
       dealii::Tensor<1, dim> point, into_slave;
       for (const auto &master : projection.masters)
         {
           point += master.second * x[master.first];
-          into_slave += master.second * of_master.normals()[master.first];
+          into_slave += master.second * normals.values().master[master.first];
         }
       const double distance = (point - x[projection.slave]).norm();
       if (!criteria.is_near(distance))

@@ -31,8 +31,9 @@ MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
   , quadrature(shape.degree(), surface.idealization())
   , sides(pair.sides)
   , held(pair.held)
+  , normals(pair)
 {
-  const auto opposite = opposite_faces(pair);
+  const auto opposite = opposite_faces(pair, normals);
   for (unsigned int i = 0; i < sides.slave.size(); ++i)
     if (!opposite[i].empty())
       faces.push_back({sides.slave[i], opposite[i], {}});
@@ -44,15 +45,16 @@ MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
 template <int dim>
 void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
 {
-  const faces::NodalNormals<dim> normals(surface, sides.slave, shape, pair.positions);
+  const faces::NodalNormals<dim> own(surface, sides.slave, shape, pair.positions);
   std::vector<bool>              is_held(surface.n_nodes());
   for (unsigned int node = 0; node < is_held.size(); ++node)
     is_held[node] =
-      pair.taken[node] || faces::free_part(normals.normals()[node], held[node]).norm() < held_part;
-  const Points<double> x(pair.positions);
-  const auto           parts = all_integrals(x);
+      pair.taken[node] || faces::free_part(own.normals()[node], held[node]).norm() < held_part;
+  const auto           at_positions = normals.at(pair.positions);
+  const Points<double> x(pair.positions), n(at_positions.normals());
+  const auto           parts = all_integrals(x, n);
   const auto boxes = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
-    const auto          box = cover_box(faces[f], x);
+    const auto          box = cover_box(faces[f], x, n);
     std::vector<double> ends(box.lower.begin(), box.lower.end());
     ends.insert(ends.end(), box.upper.begin(), box.upper.end());
     return ends;
@@ -96,12 +98,13 @@ mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                   
 /// Return the box that contains the covered part of the face.
 template <int dim>
 mortar::CoverBox<dim> MortarRows<dim>::cover_box(const SlaveFace      &face,
-                                                 const Points<double> &x) const
+                                                 const Points<double> &x,
+                                                 const Points<double> &n) const
 {
   mortar::CoverBox<dim> box;
-  const auto            slave = mortar::mortar_face(surface, shape, face.face, x).nodes;
+  const auto            slave = normals.slave_face(face.face, x, n);
   for (const unsigned int master : face.masters)
-    quadrature.add_cover(slave, mortar::mortar_face(surface, shape, master, x).nodes, box);
+    quadrature.add_cover(slave, mortar::mortar_face(surface, shape, master, x), box);
   return box;
 }
 

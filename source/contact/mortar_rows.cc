@@ -23,10 +23,10 @@ std::vector<mortar::MortarFace<dim, Number>> MortarRows<dim>::masters(const Slav
 template <int dim>
 template <typename Number>
 mortar::FaceIntegrals<Number> MortarRows<dim>::integrals(const SlaveFace      &face,
-                                                         const Points<Number> &x) const
+                                                         const Points<Number> &x,
+                                                         const Points<Number> &n) const
 {
-  return mortar::integrate<dim>(quadrature, mortar::mortar_face(surface, shape, face.face, x),
-                                masters(face, x));
+  return mortar::integrate<dim>(quadrature, normals.slave_face(face.face, x, n), masters(face, x));
 }
 
 /// Return the costs of the slave faces, because cutting a pair of faces takes most of the time.
@@ -42,10 +42,10 @@ std::vector<double> MortarRows<dim>::costs() const
 template <int dim>
 template <typename Number>
 std::vector<mortar::FaceIntegrals<Number>>
-MortarRows<dim>::all_integrals(const Points<Number> &x) const
+MortarRows<dim>::all_integrals(const Points<Number> &x, const Points<Number> &n) const
 {
   const auto numbers = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
-    return mortar::to_numbers(integrals(faces[f], x));
+    return mortar::to_numbers(integrals(faces[f], x, n));
   });
   std::vector<mortar::FaceIntegrals<Number>> result;
   for (unsigned int f = 0; f < faces.size(); ++f)
@@ -111,12 +111,12 @@ void MortarRows<dim>::for_each_part(const FacePart<Number> &part, Sums &sums, co
 template <int dim>
 template <typename Number>
 std::vector<typename MortarRows<dim>::template RowSum<Number>>
-MortarRows<dim>::row_sums(const Points<Number> &x) const
+MortarRows<dim>::row_sums(const Points<Number> &x, const Points<Number> &n) const
 {
   std::vector<RowSum<Number>> sums;
   for (const auto &nodes : row_nodes)
     sums.emplace_back(nodes.size());
-  const auto parts = all_integrals(x);
+  const auto parts = all_integrals(x, n);
   for (unsigned int f = 0; f < faces.size(); ++f)
     for_each_part(FacePart<Number>{faces[f], parts[f], x}, sums,
                   [](const Number &number, Number &entry) { entry += number; });
@@ -168,10 +168,10 @@ std::vector<DependentMultiplier> MortarRows<dim>::dependent_multipliers() const
 template <int dim>
 std::vector<Row<dim>> MortarRows<dim>::rows(const Field &positions) const
 {
-  const faces::NodalNormals<dim> normals(surface, sides.slave, shape, positions, &held);
-  const Points<double>           x(positions), n(normals.normals());
-  const auto                     sums = row_sums(x);
-  std::vector<Row<dim>>          result;
+  const auto            at_positions = normals.at(positions);
+  const Points<double>  x(positions), n(at_positions.normals());
+  const auto            sums = row_sums(x, n);
+  std::vector<Row<dim>> result;
   for (unsigned int i = 0; i < sums.size(); ++i)
     result.push_back(row(i, sums[i], x, n));
   return result;
@@ -183,10 +183,10 @@ template <int dim>
 std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
                                                        const Field &velocity) const
 {
-  const faces::NodalNormals<dim>       normals(surface, sides.slave, shape, positions, &held);
-  const Field                          slopes = normals.derivative(velocity);
-  const Points<faces::Differential<1>> x(positions, velocity), n(normals.normals(), slopes);
-  const auto                           sums = row_sums(x);
+  const auto                           at_positions = normals.at(positions);
+  const Field                          slopes       = at_positions.derivative(velocity);
+  const Points<faces::Differential<1>> x(positions, velocity), n(at_positions.normals(), slopes);
+  const auto                           sums = row_sums(x, n);
   std::vector<Row<dim>>                result;
   for (unsigned int i = 0; i < sums.size(); ++i)
     result.push_back(derivative_of(row(i, sums[i], x, n)));
@@ -196,8 +196,10 @@ std::vector<Row<dim>> MortarRows<dim>::row_derivatives(const Field &positions,
 template <int dim>
 std::vector<double> MortarRows<dim>::areas(const Field &positions) const
 {
-  std::vector<double> result;
-  for (const auto &sum : row_sums(Points<double>(positions)))
+  const auto           at_positions = normals.at(positions);
+  const Points<double> x(positions), n(at_positions.normals());
+  std::vector<double>  result;
+  for (const auto &sum : row_sums(x, n))
     result.push_back(sum.area);
   return result;
 }
@@ -206,8 +208,11 @@ template <int dim>
 std::vector<double> MortarRows<dim>::area_derivatives(const Field &positions,
                                                       const Field &velocity) const
 {
-  std::vector<faces::Differential<1>> result;
-  for (const auto &sum : row_sums(Points<faces::Differential<1>>(positions, velocity)))
+  const auto                           at_positions = normals.at(positions);
+  const Field                          slopes       = at_positions.derivative(velocity);
+  const Points<faces::Differential<1>> x(positions, velocity), n(at_positions.normals(), slopes);
+  std::vector<faces::Differential<1>>  result;
+  for (const auto &sum : row_sums(x, n))
     result.push_back(sum.area);
   return slopes_of(result);
 }
@@ -216,13 +221,13 @@ std::vector<double> MortarRows<dim>::area_derivatives(const Field &positions,
 template <int dim>
 std::vector<typename MortarRows<dim>::template RowSum<double>>
 MortarRows<dim>::add_sum_derivatives(const Field                       &positions,
-                                     const Field                       &normals,
+                                     const Field                       &of_nodes,
                                      const std::vector<RowSlopes<dim>> &of_rows,
                                      Field                             &gradient,
                                      Field                             &normal_gradient) const
 {
   SNUG_ASSERT_EQUAL(of_rows.size(), multipliers.nodes.size());
-  auto             sums = row_sums(Points<double>(positions));
+  auto             sums = row_sums(Points<double>(positions), Points<double>(of_nodes));
   faces::Recording recording;
   for (unsigned int i = 0; i < sums.size(); ++i)
     {
@@ -232,7 +237,7 @@ MortarRows<dim>::add_sum_derivatives(const Field                       &position
           continue;
         }
       recording.clear();
-      const Points<faces::Recorded> x(positions, recording), n(normals, recording);
+      const Points<faces::Recorded> x(positions, recording), n(of_nodes, recording);
       RowSum<faces::Recorded>       sum(row_nodes[i].size());
       const auto                    for_each_number = [&](const auto &visit) {
         for (unsigned int k = 0; k < row_nodes[i].size(); ++k)
@@ -261,13 +266,12 @@ void MortarRows<dim>::add_gradient(const Field                       &positions,
                                    const std::vector<RowSlopes<dim>> &slopes,
                                    Field                             &gradient) const
 {
-  const faces::NodalNormals<dim> normals(surface, sides.slave, shape, positions, &held);
-  Field                          normal_gradient(surface.n_nodes());
-  const auto                     of_sums =
-    add_sum_derivatives(positions, normals.normals(), slopes, gradient, normal_gradient);
-  normals.add_transpose(normal_gradient, gradient);
-  for (const SlaveFace &face : faces)
-    add_face_gradient(face, of_sums, positions, gradient);
+  const auto at_positions = normals.at(positions);
+  Field      normal_gradient(surface.n_nodes());
+  const auto of_sums =
+    add_sum_derivatives(positions, at_positions.normals(), slopes, gradient, normal_gradient);
+  at_positions.add_transpose(normal_gradient, gradient);
+  add_sums_gradient(of_sums, positions, at_positions, gradient);
 }
 
 template <int dim>
@@ -282,17 +286,31 @@ void MortarRows<dim>::add_area_gradient(const Field               &positions,
       slopes.emplace_back(row_nodes[i].size());
       slopes.back().area = factors[i];
     }
-  for (const SlaveFace &face : faces)
-    add_face_gradient(face, slopes, positions, gradient);
+  add_sums_gradient(slopes, positions, normals.at(positions), gradient);
 }
 
-/// Add the derivatives with respect to the positions of one slave face and its masters. First the
-/// sums are recorded as functions of the integrals and positions, then the integrals.
+template <int dim>
+void MortarRows<dim>::add_sums_gradient(const std::vector<RowSum<double>>         &slopes,
+                                        const Field                               &positions,
+                                        const typename MortarNormals<dim>::Values &at_positions,
+                                        Field                                     &gradient) const
+{
+  Field of_directions(surface.n_nodes());
+  for (const SlaveFace &face : faces)
+    add_face_gradient(face, slopes, positions, at_positions.normals(), gradient, of_directions);
+  at_positions.add_transpose(of_directions, gradient);
+}
+
+/// Add the derivatives with respect to the positions of one slave face and its masters, and with
+/// respect to the normals of its nodes, from which its direction follows. First the sums are
+/// recorded as functions of the integrals and positions, then the integrals.
 template <int dim>
 void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
                                         const std::vector<RowSum<double>> &slopes,
                                         const Field                       &positions,
-                                        Field                             &gradient) const
+                                        const Field                       &of_nodes,
+                                        Field                             &gradient,
+                                        Field &normal_gradient) const
 {
   const auto &nodes = surface.faces()[face.face].nodes;
   // Skip open faces, which are most of the slave side, because cutting segments is expensive.
@@ -306,7 +324,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
   if (!counts)
     return;
 
-  auto       of_shapes = integrals(face, Points<double>(positions));
+  auto of_shapes = integrals(face, Points<double>(positions), Points<double>(of_nodes));
   const auto n         = narrow<unsigned int>(nodes.size());
   const auto n_masters = narrow<unsigned int>(face.masters.size());
   {
@@ -329,18 +347,19 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
     of_shapes = mortar::from_numbers<dim, double>(n, n_masters, values.begin());
   }
   faces::Recording              recording;
-  const Points<faces::Recorded> x(positions, recording);
-  mortar::add_integral_derivatives(quadrature, mortar::mortar_face(surface, shape, face.face, x),
+  const Points<faces::Recorded> x(positions, recording), m(of_nodes, recording);
+  mortar::add_integral_derivatives(quadrature, normals.slave_face(face.face, x, m),
                                    masters(face, x), of_shapes, recording);
   recording.sweep();
   x.add_derivatives(gradient);
+  m.add_derivatives(normal_gradient);
 }
 
 template class MortarRows<2>;
 template class MortarRows<3>;
 #define SNUG_INSTANTIATE(dim)                                                         \
   template std::vector<mortar::FaceIntegrals<double>> MortarRows<dim>::all_integrals( \
-    const Points<double> &) const;
+    const Points<double> &, const Points<double> &) const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

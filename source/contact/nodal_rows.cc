@@ -28,18 +28,13 @@ dealii::Tensor<1, dim, Number> to_master(const unsigned int                    s
   return weighted(surface, positions) - positions[slave];
 }
 
-/// Return the normal of a row, n = v/|v|, v = -sum_k w_k n_k.
-template <int dim, typename Number>
-dealii::Tensor<1, dim, Number> row_normal(const WeightsAs<Number>              &masters,
-                                          const faces::PointField<dim, Number> &nodal_normals)
+/// Return the unit normal of the master at its point with the weights @p masters, into the master.
+template <int dim>
+dealii::Tensor<1, dim> master_normal(const Weights                            &masters,
+                                     const typename PairNormals<dim>::Fields &normals)
 {
-  using std::sqrt;
-  // Nodal normals point out of the master, and normals of rows point into it.
-  const dealii::Tensor<1, dim, Number> v      = -1. * weighted(masters, nodal_normals);
-  const Number                         length = sqrt(v * v);
-  if (!(faces::value_of(length) > 0.))
-    throw TangledMesh("the normals of a contact face cancel: it is folded");
-  return v / length;
+  return unit_normal<dim, double>(
+    -weighted(masters, faces::PointField<dim, double>(normals.master)));
 }
 
 /// The formula of nodal rows for NodeRows.
@@ -52,18 +47,18 @@ public:
   /// combination of the rows of its masters.
   explicit NodalRow(const PairGeometry<dim> &pair) : surface(pair.surface)
   {
-    const SearchCriteria<dim>      criteria(pair);
-    const faces::NodalNormals<dim> normals(surface, pair.sides.master, pair.shape, pair.positions,
-                                           &pair.held);
-    const faces::PointField<dim, double> x(pair.positions), n(normals.normals());
+    const SearchCriteria<dim>            criteria(pair);
+    const PairNormals<dim>               normals(pair);
+    const faces::PointField<dim, double> x(pair.positions);
     for (const Projection<dim> &projection :
-         project(surface, pair.sides, pair.shape, pair.positions, normals.normals()))
+         project(surface, pair.sides, pair.shape, pair.positions, normals.values()))
       {
         const unsigned int slave    = projection.slave;
         const double       distance = to_master(slave, projection.surface, x).norm();
         // Check the distance on both sides, because a deep overlap is as far away as a wide gap.
         if (pair.taken[slave] ||
-            !criteria.are_met(slave, distance, row_normal(projection.masters, n)))
+            !criteria.are_met(slave, distance,
+                              master_normal<dim>(projection.masters, normals.values())))
           continue;
         if (faces::is_without_area(surface, pair.shape.degree(), pair.positions[slave]))
           {
@@ -71,7 +66,7 @@ public:
             continue;
           }
         projections.emplace_back(surface, pair.shape, projection, pair.positions,
-                                 normals.normals());
+                                 normals.values());
         nodes.with_rows.push_back(slave);
       }
   }
@@ -81,12 +76,12 @@ public:
   template <typename Number>
   Row<dim, Number> row(const unsigned int                    i,
                        const faces::PointField<dim, Number> &positions,
-                       const faces::PointField<dim, Number> &normals) const
+                       const NormalFields<dim, Number>      &normals) const
   {
     const auto      &paired = projections[i].paired;
     const auto       here   = projections[i].at(positions, normals);
     Row<dim, Number> result;
-    result.normal = row_normal(here.masters, normals);
+    result.normal = here.normal;
     // Use the positions of the hanging nodes themselves, because the gap is that of the actual
     // mesh.
     result.gap =

@@ -60,7 +60,7 @@ NormalProjection<dim>::NormalProjection(const mesh::Surface<dim>    &surface,
                                         const faces::FaceShape<dim> &shape,
                                         const Projection<dim>       &projection,
                                         const Field                 &positions,
-                                        const Field                 &normals)
+                                        const typename PairNormals<dim>::Fields &normals)
   : paired(projection)
   , face(surface.faces()[projection.face])
   , shape(shape)
@@ -79,7 +79,9 @@ NormalProjection<dim>::NormalProjection(const mesh::Surface<dim>    &surface,
     }
   if (follows && any_fixed)
     reduced.rows =
-      transpose(equations(positions, normals).at(start, positions[projection.slave]).slope);
+      transpose(equations(positions, normals.master, normals.slave[projection.slave])
+                  .at(start, positions[projection.slave])
+                  .slope);
   for (unsigned int k = 0; k < face.nodes.size(); ++k)
     {
       bool on_lines = true;
@@ -103,10 +105,10 @@ double NormalProjection<dim>::off_face(const dealii::Point<dim - 1> &xi) const
 }
 
 template <int dim>
-typename ProjectionEquations<dim>::Point NormalProjection<dim>::solve(const Field &positions,
-                                                                      const Field &normals) const
+typename ProjectionEquations<dim>::Point
+NormalProjection<dim>::solve(const Field &positions, const Equations &equations) const
 {
-  const auto point = equations(positions, normals).solve(positions[paired.slave], start, reduced);
+  const auto point = equations.solve(positions[paired.slave], start, reduced);
   if (point && off_face(point->values.point) <= lost)
     return *point;
   std::ostringstream message;
@@ -115,13 +117,28 @@ typename ProjectionEquations<dim>::Point NormalProjection<dim>::solve(const Fiel
   throw TangledMesh(message.str());
 }
 
-/// Differentiate implicitly, first the foot point, then the point where its normal meets the true
-/// surface.
 template <int dim>
 template <typename Number>
 typename NormalProjection<dim>::template Value<Number>
 NormalProjection<dim>::at(const faces::PointField<dim, Number> &x,
-                          const faces::PointField<dim, Number> &n) const
+                          const NormalFields<dim, Number>      &n) const
+{
+  auto                           result = weights(x, n);
+  dealii::Tensor<1, dim, Number> v;
+  for (const auto &[node, weight] : result.masters)
+    v -= weight * n.master[node];
+  if (n.slave.values()[paired.slave].norm_square() > 0.)
+    v += n.slave[paired.slave];
+  result.normal = unit_normal(v);
+  return result;
+}
+
+/// Differentiate implicitly, first the foot point, then the point where v meets the true surface.
+template <int dim>
+template <typename Number>
+typename NormalProjection<dim>::template Value<Number>
+NormalProjection<dim>::weights(const faces::PointField<dim, Number> &x,
+                               const NormalFields<dim, Number>      &n) const
 {
   const bool                     differentiate = !std::is_same<Number, double>::value;
   dealii::Tensor<1, dim, Number> dxi, dzeta, x_of_xi, v_of_xi;
@@ -132,12 +149,16 @@ NormalProjection<dim>::at(const faces::PointField<dim, Number> &x,
       result.surface.assign(paired.surface.begin(), paired.surface.end());
       return result;
     }
-  const auto point = solve(x.values(), n.values());
+  const auto &of_slave = n.slave.values()[paired.slave];
+  const auto  here     = equations(x.values(), n.master.values(), of_slave);
+  const auto  point    = solve(x.values(), here);
   result.off_face  = off_face(point.values.point);
   if (differentiate)
     {
       x_of_xi = mean(point.values.value, face.nodes, x);
-      v_of_xi = mean(point.values.value, face.nodes, n);
+      v_of_xi = mean(point.values.value, face.nodes, n.master);
+      if (of_slave.norm_square() > 0.)
+        v_of_xi -= n.slave[paired.slave];
       dxi     = implicit_derivative(reduced.matrix(point.slope),
                                     reduced.residual(x_of_xi + point.t * v_of_xi - x[paired.slave]));
       // Only coordinates count from here on.
@@ -148,7 +169,7 @@ NormalProjection<dim>::at(const faces::PointField<dim, Number> &x,
   result.surface = result.masters;
   if (face.samples.empty())
     return result;
-  const auto meets = equations(x.values(), n.values()).intersection(point.values.point);
+  const auto meets = here.intersection(point.values.point);
   if (differentiate)
     dzeta = implicit_derivative(meets.slope, mean(meets.values.value, face.samples, x) - x_of_xi -
                                                meets.s * v_of_xi - meets.point_slope * dxi);
@@ -160,7 +181,7 @@ NormalProjection<dim>::at(const faces::PointField<dim, Number> &x,
 
 #define SNUG_INSTANTIATE_NUMBER(dim, Number)                               \
   template NormalProjection<dim>::Value<Number> NormalProjection<dim>::at( \
-    const faces::PointField<dim, Number> &, const faces::PointField<dim, Number> &) const;
+    const faces::PointField<dim, Number> &, const NormalFields<dim, Number> &) const;
 #define SNUG_INSTANTIATE(dim)                          \
   template class NormalProjection<dim>;                \
   SNUG_INSTANTIATE_NUMBER(dim, double)                 \

@@ -39,7 +39,7 @@ public:
   template <typename Number>
   Row<dim, Number> row(const unsigned int                    i,
                        const faces::PointField<dim, Number> &positions,
-                       const faces::PointField<dim, Number> & /*normals*/) const
+                       const NormalFields<dim, Number> & /*normals*/) const
   {
     const unsigned int                   slave = nodes.with_rows[i];
     const auto                           d     = distance(positions.values()[slave]);

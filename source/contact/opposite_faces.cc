@@ -45,13 +45,13 @@ struct SearchFace
   }
 
   /// Return the nodes in the form of the mortar functions, whose numbers may carry derivatives.
-  mortar::FaceNodes<dim, double> arrays() const
+  mortar::MortarFace<dim, double> arrays() const
   {
     mortar::FaceNodes<dim, double> result(nodes.size());
     for (unsigned int k = 0; k < nodes.size(); ++k)
       for (int i = 0; i < dim; ++i)
         result[k][i] = nodes[k][i];
-    return result;
+    return {result};
   }
 };
 
@@ -63,9 +63,11 @@ std::vector<std::size_t> near(const FaceTree<dim> &masters, const SearchFace<dim
   around.extend(1.5 * masters.bound(slave.centre) + diameter(slave.box));
   return masters.meeting(around);
 }
+} // namespace
 
 template <int dim>
-std::vector<std::vector<unsigned int>> find_opposite(const PairGeometry<dim> &pair)
+std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim>  &pair,
+                                                      const MortarNormals<dim> &normals)
 {
   const auto &slaves      = pair.sides.slave;
   const auto  search_face = [&](unsigned int face) {
@@ -84,13 +86,16 @@ std::vector<std::vector<unsigned int>> find_opposite(const PairGeometry<dim> &pa
   // Use a tree, because the number of all pairs of faces would be quadratic.
   const FaceTree<dim> tree(pair.surface, pair.sides.master, pair.shape, pair.positions);
   const mortar::SegmentQuadrature<dim> quadrature(pair.shape.degree(), pair.surface.idealization());
+  const auto                           of_slave = normals.at(pair.positions);
+  const faces::PointField<dim, double> x(pair.positions), n(of_slave.normals());
   const auto                           opposite = [&](const unsigned int i) {
-    const SearchFace<dim> slave = search_face(slaves[i]);
+    const SearchFace<dim> slave    = search_face(slaves[i]);
+    const auto            of_nodes = normals.slave_face(slaves[i], x, n);
     std::vector<double>   found;
     for (const std::size_t m : near(tree, slave))
       // Both normals point out of their bodies, so opposite faces have opposite normals.
       if (-(slave.normal * masters[m].normal) >= least_cosine &&
-          quadrature.overlap(slave.arrays(), masters[m].arrays(), pairing_margin))
+          quadrature.overlap(of_nodes, masters[m].arrays(), pairing_margin))
         found.push_back(pair.sides.master[m]);
     return found;
   };
@@ -100,14 +105,9 @@ std::vector<std::vector<unsigned int>> find_opposite(const PairGeometry<dim> &pa
     result[i].assign(found[i].begin(), found[i].end());
   return result;
 }
-} // namespace
 
-template <int dim>
-std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim> &pair)
-{
-  return find_opposite(pair);
-}
-
-template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<2> &);
-template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<3> &);
+template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<2> &,
+                                                               const MortarNormals<2> &);
+template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<3> &,
+                                                               const MortarNormals<3> &);
 } // namespace snug::contact

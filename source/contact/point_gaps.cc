@@ -4,7 +4,10 @@
 namespace snug::contact {
 template <int dim>
 PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
-  : positions(pair.positions), surface(pair.surface), slave_motion(pair.slave_motion)
+  : positions(pair.positions)
+  , surface(pair.surface)
+  , slave_motion(pair.slave_motion)
+  , sides(pair.sides)
 {
   const auto &parameters = pair.pair.parameters;
   if (parameters.gap != "0")
@@ -15,17 +18,13 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
       shift    = pair.obstacle_displacement();
       return;
     }
-  master_faces = pair.sides.master;
-  normals      = std::make_unique<faces::NodalNormals<dim>>(pair.surface, master_faces, pair.shape,
-                                                            positions, &pair.held);
-  projector    = std::make_unique<Projector<dim>>(pair.surface, master_faces, pair.shape, positions,
-                                                  normals->normals());
-  if (parameters.method == Method::mortar)
-    {
-      slave_faces   = pair.sides.slave;
-      slave_normals = std::make_unique<faces::NodalNormals<dim>>(pair.surface, slave_faces,
-                                                                 pair.shape, positions, &pair.held);
-    }
+  normals   = std::make_unique<PairNormals<dim>>(pair.surface, pair.shape, sides,
+                                               pair.has_mean_normals(), positions, pair.held);
+  projector = std::make_unique<Projector<dim>>(pair.surface, sides.master, pair.shape, positions,
+                                               normals->values().master);
+  if (parameters.method == Method::mortar && !pair.has_mean_normals())
+    slave_normals = std::make_unique<faces::NodalNormals<dim>>(pair.surface, sides.slave,
+                                                               pair.shape, positions, &pair.held);
 }
 
 template <int dim>
@@ -49,10 +48,11 @@ std::optional<PointProjection<dim>>
 PointGaps<dim>::project(const dealii::Tensor<1, dim> &x,
                         const dealii::Tensor<1, dim> &slave_normal) const
 {
-  auto result = projector->onto(x);
+  auto result = projector->onto(x, {});
   for (unsigned int step = 0; step < 3 && result; ++step)
     result = projector->onto(x + (slave_normal * (place(*result) - x)) /
-                                   slave_normal.norm_square() * slave_normal);
+                                   slave_normal.norm_square() * slave_normal,
+                             {});
   return result;
 }
 
@@ -71,15 +71,17 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
     }
   else
     {
-      if (slave_normals)
-        for (const auto &[node, weight] : slave)
-          result.normal += weight * slave_normals->normals()[node];
-      const auto nearest = slave_normals ? project(x, result.normal) : projector->onto(x);
+      // The normal of the slave, which PairNormals contain only if they are means.
+      const auto            &of_slave = slave_normals ? slave_normals->normals() : normals->values().slave;
+      for (const auto &[node, weight] : slave)
+        result.normal += weight * of_slave[node];
+      const auto nearest =
+        slave_normals ? project(x, result.normal) : projector->onto(x, result.normal);
       if (!nearest)
         return {};
       if (!slave_normals)
         for (const auto &[node, weight] : nearest->masters)
-          result.normal -= weight * normals->normals()[node];
+          result.normal -= weight * normals->values().master[node];
       // Normalize, because interpolated normals are shorter between nodes, as in mortar rows, and
       // an offset is too large in comparison.
       result.normal /= result.normal.norm();

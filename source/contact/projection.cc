@@ -63,13 +63,27 @@ Projector<dim>::Projector(const mesh::Surface<dim>        &surface,
 }
 
 template <int dim>
-std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
-Projector<dim>::find_normal(const dealii::Tensor<1, dim> &p,
-                            const unsigned int            face,
-                            const dealii::Point<dim - 1> &closest) const
+dealii::Tensor<1, dim> Projector<dim>::at_height(const dealii::Tensor<1, dim> &p,
+                                                 const dealii::Tensor<1, dim> &of_slave) const
 {
-  std::vector<unsigned int> candidates = {face};
-  for (const unsigned int node : surface.faces()[face].nodes)
+  if (of_slave.norm_square() == 0.)
+    return p;
+  const auto closest = side.closest(p);
+  const auto v       = equations(closest.face, of_slave).at(closest.point.xi, p).v;
+  // Where the normals are nearly parallel instead of opposite, no point is paired.
+  if (v.norm_square() < 1.)
+    return p;
+  return p + (closest.point.position - p) * v / v.norm_square() * v;
+}
+
+template <int dim>
+std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
+Projector<dim>::find_normal(const dealii::Tensor<1, dim>           &p,
+                            const dealii::Tensor<1, dim>           &of_slave,
+                            const typename NearestFace<dim>::Found &start) const
+{
+  std::vector<unsigned int> candidates = {start.face};
+  for (const unsigned int node : surface.faces()[start.face].nodes)
     candidates.insert(candidates.end(), faces_at[node].begin(), faces_at[node].end());
   // The face of the closest point comes first, then its neighbours by number.
   std::sort(candidates.begin() + 1, candidates.end());
@@ -77,24 +91,37 @@ Projector<dim>::find_normal(const dealii::Tensor<1, dim> &p,
   for (int a = 0; a < dim - 1; ++a)
     middle[a] = 0.5;
   for (const unsigned int candidate : candidates)
-    if (const auto found = equations(candidate).solve(p, candidate == face ? closest : middle))
+    if (const auto found = equations(candidate, of_slave)
+                             .solve(p, candidate == start.face ? start.point.xi : middle))
       if (const auto xi = inside(found->values.point))
         return std::make_pair(candidate, *xi);
   return {};
 }
 
 template <int dim>
-std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1, dim> &p) const
+std::optional<PointProjection<dim>>
+Projector<dim>::onto(const dealii::Tensor<1, dim> &p, const dealii::Tensor<1, dim> &of_slave) const
 {
-  const auto closest = side.closest(p);
+  const auto q       = at_height(p, of_slave);
+  const auto closest = side.closest(q);
   // Beyond the end of the master side the closest point stays on its edge, and the row would hold
   // back a node that passes by the master side.
   const double excess =
-    edges.excess(closest.face, closest.point.xi, p - closest.point.position, positions);
+    edges.excess(closest.face, closest.point.xi, q - closest.point.position, positions);
   if (excess >= edge_tolerance)
     return {};
-  const auto normal     = find_normal(p, closest.face, closest.point.xi);
-  const auto [face, xi] = normal.value_or(std::make_pair(closest.face, closest.point.xi));
+  return projection(p, of_slave, closest, excess);
+}
+
+template <int dim>
+PointProjection<dim>
+Projector<dim>::projection(const dealii::Tensor<1, dim>           &p,
+                           const dealii::Tensor<1, dim>           &of_slave,
+                           const typename NearestFace<dim>::Found &start,
+                           const double                            excess) const
+{
+  const auto normal     = find_normal(p, of_slave, start);
+  const auto [face, xi] = normal.value_or(std::make_pair(start.face, start.point.xi));
   const auto &of        = surface.faces()[face];
   const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
   // Where the normal begins on the side, as in a symmetry plane, the side does not end, so the
@@ -102,7 +129,8 @@ std::optional<PointProjection<dim>> Projector<dim>::onto(const dealii::Tensor<1,
   const double beyond    = normal ? 0. : std::max(0., excess);
   const auto   meets     = of.samples.empty()
                              ? masters
-                             : nonzero(equations(face).intersection(xi).values.value, of.samples);
+                             : nonzero(equations(face, of_slave).intersection(xi).values.value,
+                                       of.samples);
   const double softening = edge_softening(beyond, mean_face_size(surface, {face}, positions));
   return PointProjection<dim>{face, xi, bool(normal), masters, meets, softening};
 }
@@ -112,12 +140,12 @@ std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &s
                                      const PairFaces                          &sides,
                                      const faces::FaceShape<dim>              &shape,
                                      const typename mesh::Surface<dim>::Field &positions,
-                                     const typename mesh::Surface<dim>::Field &normals)
+                                     const typename PairNormals<dim>::Fields  &normals)
 {
   std::vector<Projection<dim>> result;
   if (sides.master.empty())
     return result;
-  const Projector<dim> projector(surface, sides.master, shape, positions, normals);
+  const Projector<dim> projector(surface, sides.master, shape, positions, normals.master);
   std::vector<bool>    visited(surface.n_nodes(), false);
   for (const unsigned int slave_face : sides.slave)
     for (const unsigned int slave : surface.faces()[slave_face].nodes)
@@ -126,7 +154,7 @@ std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &s
         if (visited[slave] || !surface.masters(slave).empty())
           continue;
         visited[slave] = true;
-        if (const auto found = projector.onto(positions[slave]))
+        if (const auto found = projector.onto(positions[slave], normals.slave[slave]))
           result.push_back({*found, slave});
       }
   return result;
@@ -138,10 +166,10 @@ template std::vector<Projection<2>> project(const mesh::Surface<2> &,
                                             const PairFaces &,
                                             const faces::FaceShape<2> &,
                                             const mesh::Surface<2>::Field &,
-                                            const mesh::Surface<2>::Field &);
+                                            const PairNormals<2>::Fields &);
 template std::vector<Projection<3>> project(const mesh::Surface<3> &,
                                             const PairFaces &,
                                             const faces::FaceShape<3> &,
                                             const mesh::Surface<3>::Field &,
-                                            const mesh::Surface<3>::Field &);
+                                            const PairNormals<3>::Fields &);
 } // namespace snug::contact

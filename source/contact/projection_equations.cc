@@ -67,6 +67,7 @@ ProjectionEquations<dim>::at(const Xi                     &xi,
       point.x += point.values.value[k] * (positions[face.nodes[k]] - origin);
       point.v += point.values.value[k] * normals[face.nodes[k]];
     }
+  point.v -= of_slave;
   point.t       = t ? *t : -(point.x * point.v) / point.v.norm_square();
   const auto tx = faces::tangents<dim>(point.values, face.nodes, positions);
   const auto tv = faces::tangents<dim>(point.values, face.nodes, normals);

@@ -70,8 +70,10 @@ private:
   void add_opposite()
   {
     const auto                          &surface  = geometry.surface;
-    const auto                           opposite = opposite_faces(geometry);
-    const auto                           x = faces::PointField<dim, double>(geometry.positions);
+    const MortarNormals<dim>             normals(geometry);
+    const auto                           at_positions = normals.at(geometry.positions);
+    const auto                           opposite     = opposite_faces(geometry, normals);
+    const faces::PointField<dim, double> x(geometry.positions), n(at_positions.normals());
     const mortar::SegmentQuadrature<dim> quadrature(geometry.shape.degree(),
                                                     surface.idealization());
     const NearestFace<dim>               nearest(surface, geometry.sides.master, geometry.shape,
@@ -96,7 +98,7 @@ private:
             if (const unsigned int pair = pair_at(master); pair != beside)
               {
                 const auto part = mortar::integrate<dim, double>(
-                  quadrature, mortar::mortar_face(surface, geometry.shape, face, x),
+                  quadrature, normals.slave_face(face, x, n),
                   {mortar::mortar_face(surface, geometry.shape, master, x)});
                 auto &own = of_pairs[pair];
                 own.resize(part.slave.size());

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <tuple>
 
 namespace snug::contact {
 namespace {
@@ -71,20 +70,27 @@ dealii::Tensor<1, dim> largest_column(const dealii::Tensor<2, dim> &matrix)
 template <int dim>
 TangentFrames<dim>::TangentFrames(PairGeometry<dim> geometry)
   : pair(std::move(geometry))
-  , on_master(pair.surface.n_nodes(), false)
-  , faces_of_node(pair.surface.n_nodes())
 {
   if (pair.pair.obstacle)
     return;
   nearest.emplace(pair.surface, pair.sides.master, pair.shape, pair.positions);
-  for (const unsigned int face : pair.sides.master)
+  of_slave  = faces_at_nodes(pair.sides.slave);
+  of_master = faces_at_nodes(pair.sides.master);
+}
+
+template <int dim>
+typename TangentFrames<dim>::FacesAtNodes
+TangentFrames<dim>::faces_at_nodes(const std::vector<unsigned int> &side) const
+{
+  FacesAtNodes result(pair.surface.n_nodes());
+  for (const unsigned int face : side)
     for (const unsigned int node : pair.surface.faces()[face].nodes)
       {
-        on_master[node] = true;
-        faces_of_node[node].push_back(face);
+        result[node].push_back(face);
         for (const auto &master : pair.surface.masters(node))
-          on_master[master.first] = true;
+          result[master.first].push_back(face);
       }
+  return result;
 }
 
 template <int dim>
@@ -101,7 +107,7 @@ std::vector<bool> TangentFrames<dim>::rely_on_master(const std::vector<unsigned 
     {
       Choice best{0., i, 0};
       for (const auto &[node, c] : rows[i].coefficients)
-        if (on_master[node] && std::abs(c * rows[i].normal) > best.coefficient)
+        if (nearest && !of_master[node].empty() && std::abs(c * rows[i].normal) > best.coefficient)
           best = {std::abs(c * rows[i].normal), i, node};
       if (!pair.held[slaves[i]].empty() && best.coefficient > 0.)
         choices.push_back(best);
@@ -123,13 +129,11 @@ TangentFrames<dim>::frame(const unsigned int slave,
                           const Row<dim>    &row,
                           const bool         relies_on_master) const
 {
-  std::vector<unsigned int> at_foot, around_foot;
-  if (nearest)
-    std::tie(at_foot, around_foot) = nodes_at_foot(slave);
   const auto tangential = free_directions<dim>({row.normal});
   const auto movable =
     tangential *
-    movable_directions(slave, relies_on_master ? at_foot : std::vector<unsigned int>(),
+    movable_directions(slave,
+                       relies_on_master ? nodes_at_foot(slave) : std::vector<unsigned int>(),
                        row.normal) *
     tangential;
   const unsigned int n_tangents = rank_of(movable);
@@ -140,52 +144,65 @@ TangentFrames<dim>::frame(const unsigned int slave,
     result.displacement = pair.obstacle_displacement();
   // In axisymmetric sections, rotations are no rigid motions.
   else if (!pair.surface.idealization().is_axisymmetric())
-    set_masters(row, around_foot, result);
+    for (const FacesAtNodes *side : {&of_slave, &of_master})
+      add_couple(row, *side, result);
   return {result, n_tangents};
 }
 
-/// Return the nodes with shape functions at the foot of a slave node, and the nodes of all faces of
-/// the master that have these nodes.
+/// Return the nodes with shape functions at the foot of a slave node.
 template <int dim>
-std::pair<std::vector<unsigned int>, std::vector<unsigned int>>
-TangentFrames<dim>::nodes_at_foot(const unsigned int slave) const
+std::vector<unsigned int> TangentFrames<dim>::nodes_at_foot(const unsigned int slave) const
 {
   const auto                found = nearest->closest(pair.positions[slave]);
   const auto               &nodes = pair.surface.faces()[found.face].nodes;
   const auto                shape = pair.shape.at(found.point.xi).value;
-  std::vector<unsigned int> at_foot, around_foot;
+  std::vector<unsigned int> result;
   for (unsigned int k = 0; k < nodes.size(); ++k)
     if (std::abs(shape[k]) > least_shape_function)
-      at_foot.push_back(nodes[k]);
-  for (const unsigned int face : faces_of_node[at_foot.front()])
-    {
-      const auto &others = pair.surface.faces()[face].nodes;
-      const auto  has    = [&](const unsigned int node) {
-        return std::find(others.begin(), others.end(), node) != others.end();
-      };
-      if (std::all_of(at_foot.begin(), at_foot.end(), has))
-        around_foot.insert(around_foot.end(), others.begin(), others.end());
-    }
-  return {without_hanging(at_foot, pair.surface), without_hanging(around_foot, pair.surface)};
+      result.push_back(nodes[k]);
+  return without_hanging(result, pair.surface);
 }
 
-/// Choose the nodes for the couple: those of the row on the master, or those of the faces around
-/// the foot of the slave node where the former do not spread in all tangential directions, as at
-/// nodes that match.
+/// Add the part of the couple on one side, which acts on the nodes of the row on this side. Where
+/// these do not spread in all tangential directions, as at nodes that match, it acts on the nodes
+/// of the faces around the node with the largest coefficient.
 template <int dim>
-void TangentFrames<dim>::set_masters(const Row<dim>                  &row,
-                                     const std::vector<unsigned int> &around_foot,
-                                     TangentFrame<dim>               &frame) const
+void TangentFrames<dim>::add_couple(const Row<dim>     &row,
+                                    const FacesAtNodes &side,
+                                    TangentFrame<dim>  &frame) const
 {
-  for (const auto &coefficient : row.coefficients)
-    if (on_master[coefficient.first] &&
-        std::abs(coefficient.second * row.normal) > least_shape_function)
-      frame.masters.push_back(coefficient.first);
-  frame.spread = tangential_spread(row.normal, frame, pair.positions);
-  if (frame.spread == dim - 1)
-    return;
-  frame.masters = around_foot;
-  frame.spread  = tangential_spread(row.normal, frame, pair.positions);
+  CoupleNodes  couple;
+  unsigned int largest_node = 0;
+  double       largest      = 0.;
+  for (const auto &[node, c] : row.coefficients)
+    if (const double factor = std::abs(c * row.normal);
+        !side[node].empty() && factor > least_shape_function)
+      {
+        couple.nodes.push_back(node);
+        // Of equal coefficients, up to round-off, the first one counts.
+        if (factor > largest * (1. + 1e-6))
+          {
+            largest      = factor;
+            largest_node = node;
+          }
+      }
+  const auto spread = [&]() {
+    return tangential_spread(row.normal, frame.reference, couple.nodes, pair.positions);
+  };
+  couple.spread = spread();
+  if (couple.spread < dim - 1 && largest > 0.)
+    {
+      std::vector<unsigned int> around;
+      for (const unsigned int face : side[largest_node])
+        {
+          const auto &nodes = pair.surface.faces()[face].nodes;
+          around.insert(around.end(), nodes.begin(), nodes.end());
+        }
+      couple.nodes  = without_hanging(around, pair.surface);
+      couple.spread = spread();
+    }
+  if (couple.spread > 0)
+    frame.couple.push_back(std::move(couple));
 }
 
 /// Return a matrix that is zero in the directions that the slave node and the nodes of the master

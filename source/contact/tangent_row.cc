@@ -20,7 +20,7 @@ Vector<dim, Number> across(const Vector<dim, Number> &n, const Vector<dim, Numbe
   return {};
 }
 
-/// The components of the positions of the master's nodes along two vectors t and s of the tangent
+/// The components of the positions of nodes along two vectors t and s of the tangent
 /// plane, relative to the mean of the nodes, and their sums of squares.
 template <int dim, typename Number>
 struct Spread
@@ -96,31 +96,33 @@ Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
     }
   result.gap    = t * frame.displacement;
   result.normal = row.normal;
-  if (frame.spread == 0)
-    return result;
-  const Spread<dim, Number> spread(frame.masters, t, across<dim>(row.normal, t), x);
-  // With s = n x t, y = (y.t t + y.s s) / |t|^2, and H has the entries tt, ts and ss over |t|^2 in
-  // the basis of the unit vectors. The factors of y.t and y.s in beta are:
-  const bool   on_line = frame.spread == 1;
-  const Number by_t = on_line ? spread.tt : spread.ss, by_s = on_line ? spread.ts : -spread.ts;
-  const Number divisor = on_line ? (spread.tt + spread.ss) * (spread.tt + spread.ss)
-                                 : spread.tt * spread.ss - spread.ts * spread.ts;
-  const Number factor  = -g * (t * t) / divisor;
-  for (unsigned int k = 0; k < frame.masters.size(); ++k)
-    coefficient_of(frame.masters[k], result) +=
-      (factor * (by_t * spread.along_t[k] + by_s * spread.along_s[k])) * row.normal;
+  for (const auto &[nodes, directions] : frame.couple)
+    {
+      const Spread<dim, Number> spread(nodes, t, across<dim>(row.normal, t), x);
+      // With s = n x t, y = (y.t t + y.s s) / |t|^2, and H has the entries tt, ts and ss over |t|^2
+      // in the basis of the unit vectors. The factors of y.t and y.s in beta are:
+      const bool   on_line = directions == 1;
+      const Number by_t = on_line ? spread.tt : spread.ss, by_s = on_line ? spread.ts : -spread.ts;
+      const Number divisor = on_line ? (spread.tt + spread.ss) * (spread.tt + spread.ss)
+                                     : spread.tt * spread.ss - spread.ts * spread.ts;
+      const Number factor  = -g * (t * t) / (double(frame.couple.size()) * divisor);
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        coefficient_of(nodes[k], result) +=
+          (factor * (by_t * spread.along_t[k] + by_s * spread.along_s[k])) * row.normal;
+    }
   return result;
 }
 
 template <int dim>
 unsigned int tangential_spread(const dealii::Tensor<1, dim>             &normal,
-                               const TangentFrame<dim>                  &frame,
+                               const dealii::Tensor<1, dim>             &reference,
+                               const std::vector<unsigned int>          &nodes,
                                const typename mesh::Surface<dim>::Field &positions)
 {
-  if (frame.masters.empty())
+  if (nodes.empty())
     return 0;
-  const auto                t = tangent_direction(frame.reference, normal, 0);
-  const Spread<dim, double> spread(frame.masters, t, across<dim>(normal, t),
+  const auto                t = tangent_direction(reference, normal, 0);
+  const Spread<dim, double> spread(nodes, t, across<dim>(normal, t),
                                    faces::PointField<dim, double>(positions));
   const double              trace = spread.tt + spread.ss;
   if (!(trace > least_spread * spread.total))
@@ -139,9 +141,9 @@ unsigned int tangential_spread(const dealii::Tensor<1, dim>             &normal,
   SNUG_INSTANTIATE_NUMBER(dim, double)                                    \
   SNUG_INSTANTIATE_NUMBER(dim, faces::Differential<1>)                    \
   SNUG_INSTANTIATE_NUMBER(dim, faces::Recorded)                           \
-  template unsigned int tangential_spread(const dealii::Tensor<1, dim> &, \
-                                          const TangentFrame<dim> &,      \
-                                          const mesh::Surface<dim>::Field &);
+  template unsigned int tangential_spread(                                \
+    const dealii::Tensor<1, dim> &, const dealii::Tensor<1, dim> &,       \
+    const std::vector<unsigned int> &, const mesh::Surface<dim>::Field &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

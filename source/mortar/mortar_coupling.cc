@@ -217,7 +217,7 @@ FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quad
   auto result = zero_integrals<dim, Number>(slave.nodes.size(), masters.size());
   for (unsigned int f = 0; f < masters.size(); ++f)
     quadrature.template for_each_point<Number>(
-      slave.nodes, masters[f].nodes, [&](const auto &compute) {
+      slave, masters[f], [&](const auto &compute) {
         for_each_part(quadrature, slave, masters[f], f, compute(),
                       [&](const Number &part, const auto &entry) { entry(result) += part; });
       });
@@ -233,7 +233,7 @@ void add_integral_derivatives(const SegmentQuadrature<dim>                      
 {
   for (unsigned int f = 0; f < masters.size(); ++f)
     quadrature.template for_each_point<faces::Recorded>(
-      slave.nodes, masters[f].nodes, [&](const auto &compute) {
+      slave, masters[f], [&](const auto &compute) {
         const std::size_t begin = recording.size();
         for_each_part(quadrature, slave, masters[f], f, compute(),
                       [&](const faces::Recorded &part, const auto &entry) {

@@ -64,6 +64,12 @@ Number section_weight(const mesh::Idealization &idealization, const std::array<N
   return weight;
 }
 
+template <typename Number>
+std::array<Number, 3> cross(const std::array<Number, 3> &a, const std::array<Number, 3> &b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 /// Coordinates in the plane of a slave face, with the centre at 0 and size 1.
 template <int dim, typename Number>
 class FacePlane
@@ -71,13 +77,17 @@ class FacePlane
 public:
   // t.(x - c) alone would depend on units and on the angle of the tangents. With the factor
   // (t.t)^-1 the face has size 1 for any shape, and tolerances are fractions of the face.
-  FacePlane(unsigned int degree, const FaceNodes<dim, Number> &face)
+  FacePlane(unsigned int degree, const MortarFace<dim, Number> &face)
   {
     faces::FaceCoordinates<dim, double> middle;
     middle.fill(0.5);
     const faces::FaceValues<dim, double> shape(degree, middle);
-    centre = combined(shape.value, face);
-    set_dual(tangents<dim>(shape, face));
+    centre       = combined(shape.value, face.nodes);
+    const auto t = tangents<dim>(shape, face.nodes);
+    if (face.direction)
+      set_dual(t, *face.direction);
+    else
+      set_dual(t);
   }
 
   faces::FaceCoordinates<dim, Number> project(const std::array<Number, dim> &x) const
@@ -93,7 +103,7 @@ public:
 
 private:
   std::array<Number, dim> centre;
-  Vectors<dim, Number>    dual; ///< (t.t)^-1 t
+  Vectors<dim, Number>    dual; ///< (t.t)^-1 t, or the rows for t and 0 of the inverse of (t, n_0)
 
   void set_dual(const Vectors<2, Number> &t)
   {
@@ -112,9 +122,26 @@ private:
         dual[1][i] = (g00 * t[1][i] - g01 * t[0][i]) / det;
       }
   }
+
+  void set_dual(const Vectors<2, Number> &t, const std::array<Number, 2> &n)
+  {
+    const Number det = t[0][0] * n[1] - t[0][1] * n[0];
+    dual[0]          = {n[1] / det, -n[0] / det};
+  }
+
+  void set_dual(const Vectors<3, Number> &t, const std::array<Number, 3> &n)
+  {
+    const auto   by_t0 = cross(t[1], n), by_t1 = cross(n, t[0]);
+    const Number det = faces::dot(t[0], by_t0);
+    for (int i = 0; i < 3; ++i)
+      {
+        dual[0][i] = by_t0[i] / det;
+        dual[1][i] = by_t1[i] / det;
+      }
+  }
 };
 
-/// Return a face projected along the normal of @p plane.
+/// Return a face projected along the direction of @p plane.
 template <int dim, typename Number>
 faces::PlaneFace<dim, Number> projected(unsigned int                  degree,
                                         const FacePlane<dim, Number> &plane,
@@ -193,13 +220,13 @@ SegmentQuadrature<dim>::SegmentQuadrature(unsigned int              degree,
 template <int dim>
 template <typename Number>
 void SegmentQuadrature<dim>::for_each_point(
-  const FaceNodes<dim, Number>                                                  &slave,
-  const FaceNodes<dim, Number>                                                  &master,
+  const MortarFace<dim, Number>                                                 &slave,
+  const MortarFace<dim, Number>                                                 &master,
   const std::function<void(const std::function<SegmentPoint<dim, Number>()> &)> &visit) const
 {
   const FacePlane<dim, Number> plane(degree, slave);
-  const auto                   on_slave     = projected<dim>(degree, plane, slave);
-  const auto                   on_master    = projected<dim>(degree, plane, master);
+  const auto                   on_slave     = projected<dim>(degree, plane, slave.nodes);
+  const auto                   on_master    = projected<dim>(degree, plane, master.nodes);
   const auto                   master_cells = cells<dim>(degree, on_master, true);
   for (const auto &slave_cell : cells<dim>(degree, on_slave, false))
     for (const auto &master_cell : master_cells)
@@ -220,8 +247,8 @@ void SegmentQuadrature<dim>::for_each_point(
                 const faces::FaceCoordinates<dim, Number> xi = combined(q.barycentric, simplex);
                 SegmentPoint<dim, Number>                 point{0., xi, {}, {degree, xi}};
                 const auto                               &shape = point.slave_shape;
-                point.weight = size * area(tangents<dim>(shape, slave)) *
-                               section_weight(idealization, combined(shape.value, slave)) *
+                point.weight = size * area(tangents<dim>(shape, slave.nodes)) *
+                               section_weight(idealization, combined(shape.value, slave.nodes)) *
                                q.weight;
                 // Project along n_0 and not to the closest point: n_0 is the same for all points of
                 // a slave face.
@@ -233,13 +260,13 @@ void SegmentQuadrature<dim>::for_each_point(
 }
 
 template <int dim>
-void SegmentQuadrature<dim>::add_cover(const FaceNodes<dim, double> &slave,
-                                       const FaceNodes<dim, double> &master,
-                                       CoverBox<dim>                &box) const
+void SegmentQuadrature<dim>::add_cover(const MortarFace<dim, double> &slave,
+                                       const MortarFace<dim, double> &master,
+                                       CoverBox<dim>                 &box) const
 {
   const FacePlane<dim, double> plane(degree, slave);
-  const auto                   on_slave = projected<dim>(degree, plane, slave);
-  const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master), true);
+  const auto                   on_slave = projected<dim>(degree, plane, slave.nodes);
+  const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master.nodes), true);
   for (const auto &slave_cell : cells<dim>(degree, on_slave, false))
     for (const auto &master_cell : master_cells)
       for (const auto &vertex : intersection<dim - 1>(slave_cell, master_cell))
@@ -254,17 +281,17 @@ void SegmentQuadrature<dim>::add_cover(const FaceNodes<dim, double> &slave,
 }
 
 template <int dim>
-bool SegmentQuadrature<dim>::overlap(const FaceNodes<dim, double> &slave,
-                                     const FaceNodes<dim, double> &master,
-                                     double                        margin) const
+bool SegmentQuadrature<dim>::overlap(const MortarFace<dim, double> &slave,
+                                     const MortarFace<dim, double> &master,
+                                     double                         margin) const
 {
   const FacePlane<dim, double> plane(degree, slave);
-  auto                         nodes = projected<dim>(degree, plane, slave).nodes();
+  auto                         nodes = projected<dim>(degree, plane, slave.nodes).nodes();
   for (auto &node : nodes)
     for (double &coordinate : node)
       // Scale about the origin of the plane, which is the centre of the face.
       coordinate *= 1. + 2. * margin;
-  const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master), true);
+  const auto master_cells = cells<dim>(degree, projected<dim>(degree, plane, master.nodes), true);
   for (const auto &slave_cell :
        cells<dim>(degree, faces::PlaneFace<dim, double>(degree, nodes), false))
     for (const auto &master_cell : master_cells)
@@ -277,7 +304,7 @@ template class SegmentQuadrature<2>;
 template class SegmentQuadrature<3>;
 #define SNUG_INSTANTIATE(dim, Number)                                                       \
   template void SegmentQuadrature<dim>::for_each_point(                                     \
-    const FaceNodes<dim, Number> &, const FaceNodes<dim, Number> &,                         \
+    const MortarFace<dim, Number> &, const MortarFace<dim, Number> &,                       \
     const std::function<void(const std::function<SegmentPoint<dim, Number>()> &)> &) const; \
   template faces::FaceValues<dim, Number> SegmentQuadrature<dim>::shape(                    \
     const faces::FaceCoordinates<dim, Number> &) const;

@@ -1,11 +1,9 @@
 #ifndef snug_contact_mortar_rows_h
 #define snug_contact_mortar_rows_h
 
-#include <snug/contact/pair_geometry.h>
+#include <snug/contact/mortar_normals.h>
 #include <snug/contact/row_group.h>
-#include <snug/faces/nodal_normals.h>
 #include <snug/mortar/mortar_coupling.h>
-#include <snug/mortar/mortar_face.h>
 #include <snug/mortar/multiplier_nodes.h>
 
 #include <algorithm>
@@ -14,7 +12,7 @@ namespace snug::contact {
 /**
  * This class provides the mortar contact of one pair. The pressure sum_i p_i psi_i n_i acts between
  * the faces. psi_i are the functions of the multiplier nodes (FaceCoupling, MultiplierNodes), and
- * n_i are the NodalNormals of the slave side at these nodes. Row i is the mean gap weighted by
+ * n_i are the MortarNormals at these nodes. Row i is the mean gap weighted by
  * psi_i:
  *   c_l = n_i D_il / a_i,  c_k = -n_i (M_ik + dM_ik) / a_i,
  *   gap = n_i . int psi_i (x_master - x_slave) / a_i,
@@ -83,6 +81,7 @@ private:
   PairFaces                              sides;
   std::vector<SlaveFace>                 faces;
   faces::HeldDirections<dim>             held;
+  MortarNormals<dim>                     normals;
   mortar::MultiplierNodes                multipliers;
   std::vector<std::vector<unsigned int>> row_nodes; ///< per row, ascending
 
@@ -91,7 +90,9 @@ private:
                                          const mortar::FaceIntegrals<double> &of_nodes,
                                          const mortar::CoverBox<dim>         &box,
                                          const Field                         &positions) const;
-  mortar::CoverBox<dim> cover_box(const SlaveFace &face, const Points<double> &x) const;
+  mortar::CoverBox<dim> cover_box(const SlaveFace      &face,
+                                  const Points<double> &x,
+                                  const Points<double> &n) const;
   std::vector<double>   costs() const;
   void                  collect_row_nodes();
   void                  leave_out_far_rows(const PairGeometry<dim> &pair);
@@ -99,10 +100,12 @@ private:
   std::vector<mortar::MortarFace<dim, Number>> masters(const SlaveFace      &face,
                                                        const Points<Number> &x) const;
   template <typename Number>
-  mortar::FaceIntegrals<Number> integrals(const SlaveFace &face, const Points<Number> &x) const;
-  /// Compute the integrals of all slave faces. Collective.
+  mortar::FaceIntegrals<Number>
+  integrals(const SlaveFace &face, const Points<Number> &x, const Points<Number> &n) const;
+  /// Compute the integrals of all slave faces at positions @p x and normals @p n. Collective.
   template <typename Number>
-  std::vector<mortar::FaceIntegrals<Number>> all_integrals(const Points<Number> &x) const;
+  std::vector<mortar::FaceIntegrals<Number>> all_integrals(const Points<Number> &x,
+                                                           const Points<Number> &n) const;
   /// Call visit(place in row_nodes[row], weight) for @p node, or for each of its masters if @p node
   /// hangs.
   template <typename Visit>
@@ -134,7 +137,7 @@ private:
   template <typename Number, typename Sums, typename Add>
   void for_each_part(const FacePart<Number> &part, Sums &sums, const Add &add) const;
   template <typename Number>
-  std::vector<RowSum<Number>> row_sums(const Points<Number> &x) const;
+  std::vector<RowSum<Number>> row_sums(const Points<Number> &x, const Points<Number> &n) const;
   /// Return row @p i from its sum and the normals @p n of the slave side.
   template <typename Number>
   Row<dim, Number> row(unsigned int          i,
@@ -144,14 +147,21 @@ private:
   /// Return the derivatives of the scalar of add_gradient() with respect to the sums of the rows.
   /// Add the derivatives with respect to positions and normals at fixed sums.
   std::vector<RowSum<double>> add_sum_derivatives(const Field                       &positions,
-                                                  const Field                       &normals,
+                                                  const Field                       &of_nodes,
                                                   const std::vector<RowSlopes<dim>> &of_rows,
                                                   Field                             &gradient,
                                                   Field &normal_gradient) const;
+  /// Add the derivatives through the integrals from the @p slopes with respect to the sums.
+  void add_sums_gradient(const std::vector<RowSum<double>>         &slopes,
+                         const Field                               &positions,
+                         const typename MortarNormals<dim>::Values &at_positions,
+                         Field                                     &gradient) const;
   void                        add_face_gradient(const SlaveFace                   &face,
                                                 const std::vector<RowSum<double>> &slopes,
                                                 const Field                       &positions,
-                                                Field                             &gradient) const;
+                                                const Field                       &of_nodes,
+                                                Field                             &gradient,
+                                                Field &normal_gradient) const;
 };
 } // namespace snug::contact
 

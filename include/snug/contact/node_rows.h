@@ -3,8 +3,8 @@
 
 #include <snug/base/assertions.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/contact/pair_normals.h>
 #include <snug/contact/row_derivatives.h>
-#include <snug/faces/nodal_normals.h>
 #include <snug/faces/point_field.h>
 #include <snug/faces/tributary.h>
 
@@ -19,12 +19,12 @@ struct SlaveNodes
 /**
  * This class provides the rows of slave nodes, one row per node. The class @p Formula selects
  * the nodes when it is constructed from a PairGeometry, and defines the row as a function of the
- * positions of points and of the normals of the master's nodes. Derivatives are computed by
- * evaluating row() with numbers that carry or record derivatives:
+ * positions of points and of the PairNormals. Derivatives are computed by evaluating row() with
+ * numbers that carry or record derivatives:
  *   Formula(const PairGeometry<dim> &pair)
  *   SlaveNodes nodes
  *   Row<dim, Number> row(unsigned int i, const faces::PointField<dim, Number> &positions,
- *                        const faces::PointField<dim, Number> &normals) const
+ *                        const NormalFields<dim, Number> &normals) const
  */
 template <int dim, typename Formula>
 class NodeRows : public RowGroup<dim>
@@ -36,6 +36,7 @@ public:
     : surface(pair.surface)
     , shape(pair.shape)
     , sides(pair.sides)
+    , has_mean_normals(pair.has_mean_normals())
     , held(pair.held)
     , formula(pair)
     , nodes(formula.nodes)
@@ -50,11 +51,12 @@ public:
 
   std::vector<Row<dim>> rows(const Field &positions) const override
   {
-    const auto                           normals = master_normals(positions);
-    const faces::PointField<dim, double> x(positions), n(normals.normals());
+    const auto                           normals = pair_normals(positions);
+    const auto                          &values  = normals.values();
+    const faces::PointField<dim, double> x(positions), n(values.master), m(values.slave);
     std::vector<Row<dim>>                result;
     for (unsigned int i = 0; i < nodes.with_rows.size(); ++i)
-      result.push_back(formula.row(i, x, n));
+      result.push_back(formula.row(i, x, NormalFields<dim, double>{n, m}));
     return result;
   }
 
@@ -62,12 +64,14 @@ public:
                                         const Field &velocity) const override
   {
     using Number                                 = faces::Differential<1>;
-    const auto                           normals = master_normals(positions);
+    const auto                           normals = pair_normals(positions);
     const auto                           slopes  = normals.derivative(velocity);
-    const faces::PointField<dim, Number> x(positions, velocity), n(normals.normals(), slopes);
-    std::vector<Row<dim>>                result;
+    const auto                          &values  = normals.values();
+    const faces::PointField<dim, Number> x(positions, velocity), n(values.master, slopes.master),
+      m(values.slave, slopes.slave);
+    std::vector<Row<dim>> result;
     for (unsigned int i = 0; i < nodes.with_rows.size(); ++i)
-      result.push_back(derivative_of(formula.row(i, x, n)));
+      result.push_back(derivative_of(formula.row(i, x, NormalFields<dim, Number>{n, m})));
     return result;
   }
 
@@ -76,22 +80,25 @@ public:
                     Field                             &gradient) const override
   {
     SNUG_ASSERT_EQUAL(slopes.size(), nodes.with_rows.size());
-    const auto       normals = master_normals(positions);
-    Field            normal_gradient(surface.n_nodes());
-    faces::Recording recording;
+    const auto                        normals = pair_normals(positions);
+    typename PairNormals<dim>::Fields of_normals{Field(surface.n_nodes()),
+                                                 Field(surface.n_nodes())};
+    faces::Recording                  recording;
     for (unsigned int i = 0; i < slopes.size(); ++i)
       {
         if (slopes[i].coefficients.empty())
           continue;
         recording.clear();
         const faces::PointField<dim, faces::Recorded> x(positions, recording),
-          n(normals.normals(), recording);
-        add_slopes(formula.row(i, x, n), slopes[i], recording);
+          n(normals.values().master, recording), m(normals.values().slave, recording);
+        add_slopes(formula.row(i, x, NormalFields<dim, faces::Recorded>{n, m}), slopes[i],
+                   recording);
         recording.sweep();
         x.add_derivatives(gradient);
-        n.add_derivatives(normal_gradient);
+        n.add_derivatives(of_normals.master);
+        m.add_derivatives(of_normals.slave);
       }
-    normals.add_transpose(normal_gradient, gradient);
+    normals.add_transpose(of_normals, gradient);
   }
 
   /// Return areas over the whole slave side, also where the master side ends within it. So the
@@ -119,6 +126,7 @@ private:
   const mesh::Surface<dim>    &surface;
   const faces::FaceShape<dim> &shape;
   PairFaces                    sides; ///< obstacles have no master faces
+  bool                         has_mean_normals;
   faces::HeldDirections<dim>   held;
   Formula                      formula;
   const SlaveNodes            &nodes;
@@ -129,9 +137,9 @@ private:
     return faces::tributary_areas<dim>({surface, sides.slave, shape}, nodes.with_rows, x);
   }
 
-  faces::NodalNormals<dim> master_normals(const Field &positions) const
+  PairNormals<dim> pair_normals(const Field &positions) const
   {
-    return {surface, sides.master, shape, positions, &held};
+    return {surface, shape, sides, has_mean_normals, positions, held};
   }
 };
 } // namespace snug::contact

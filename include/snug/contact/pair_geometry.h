@@ -62,6 +62,10 @@ struct PairGeometry
   /// Return the displacement that the scene prescribes for the obstacle, at its position [length].
   dealii::Tensor<1, dim> obstacle_displacement() const;
 
+  /// Return whether points are paired along the mean of the normals of both sides, PairNormals.
+  /// Against obstacles they are paired along the normal of the obstacle.
+  bool has_mean_normals() const { return pair.parameters.has_friction() && !pair.obstacle; }
+
   /// Return the mean edge length of the slave faces [length].
   double slave_size() const { return mean_face_size(surface, sides.slave, positions); }
 };

@@ -19,8 +19,9 @@ struct PointGap
 };
 
 /// This class computes the gaps of a pair at any points of its slave side. Nodal and obstacle
-/// contact measure gaps along normals of the master, as NodalRows and ObstacleRows do at nodes.
-/// Mortar contact measures gaps along normals of the slave, as MortarRows do between nodes.
+/// contact measure gaps along PairNormals, as nodal and obstacle rows do at nodes. Mortar contact
+/// does so with mean normals. Without them it measures gaps along normals of the slave, as
+/// MortarRows do between nodes.
 template <int dim>
 class PointGaps
 {
@@ -41,8 +42,6 @@ public:
   double given(const dealii::Tensor<1, dim> &x) const;
 
 private:
-  using Normals = std::unique_ptr<faces::NodalNormals<dim>>;
-
   std::optional<PointProjection<dim>> project(const dealii::Tensor<1, dim> &x,
                                               const dealii::Tensor<1, dim> &slave_normal) const;
   dealii::Tensor<1, dim>              place(const PointProjection<dim> &projection) const;
@@ -53,9 +52,11 @@ private:
   dealii::Tensor<1, dim>                  shift; ///< displacement of the obstacle
   const mesh::Surface<dim>               &surface;
   geometry::RigidMotion<dim>              slave_motion;
-  std::vector<unsigned int>               master_faces, slave_faces;
-  Normals normals, slave_normals; ///< slave_normals: only for mortar contact
-  std::unique_ptr<Projector<dim>> projector;
+  PairFaces                               sides;
+  std::unique_ptr<PairNormals<dim>>       normals; ///< none for obstacles
+  /// only for mortar contact without mean normals
+  std::unique_ptr<faces::NodalNormals<dim>> slave_normals;
+  std::unique_ptr<Projector<dim>>           projector;
 };
 } // namespace snug::contact
 

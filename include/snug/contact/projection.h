@@ -3,6 +3,7 @@
 
 #include <snug/contact/nearest_face.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/contact/pair_normals.h>
 #include <snug/contact/projection_equations.h>
 #include <snug/faces/outer_edges.h>
 
@@ -17,9 +18,9 @@ using Weights = std::vector<std::pair<unsigned int, double>>;
 
 /**
  * Projection of a point p to a master face. The foot point of p is the point x(xi) = sum_k w_k x_k
- * of the face from which the normal of the master side leads to p, p = x(xi) + t v(xi),  v(xi) =
- * sum_k w_k n_k,  w_k = N_k(xi), with the nodal normals n_k. On a circle or a sphere v is radial up
- * to round-off, so that rows have no lever about its centre. The point of the facet that is closest
+ * of the face from which the vector v of PairNormals leads to p, p = x(xi) + t v(xi),  v(xi) =
+ * sum_k w_k n_k - n_p,  w_k = N_k(xi). With n_p = 0 on a circle or a sphere v is radial up to
+ * round-off, so that rows have no lever about its centre. The point of the facet that is closest
  * to the node would give rows such a lever.
  */
 template <int dim>
@@ -27,7 +28,7 @@ struct PointProjection
 {
   unsigned int           face;      ///< index of the surface face
   dealii::Point<dim - 1> xi;        ///< coordinates of the foot point
-  bool                   is_normal; ///< false: the closest point, as no normal leads to p
+  bool                   is_normal; ///< false: the closest point, as no vector v leads to p
   Weights                masters;   ///< nodes of the face
   Weights                surface;   ///< points that give the true surface where the normal meets it
   double softening; ///< edge_softening() beyond the end of the master side, else 0 [length]
@@ -62,7 +63,7 @@ constexpr double edge_softening(double excess, double h)
 }
 
 /**
- * This class projects points onto a master side along the @p normals of its nodes. The search
+ * This class projects points onto a master side along PairNormals. The search
  * starts from the closest point. The closest point is taken where no normal is found, as beyond the
  * edge. The candidate faces come from a tree of boxes that contain the faces, so that no face is
  * missed. Of equally close faces, the one with the lowest index is taken. Weights below 1e-12
@@ -74,16 +75,25 @@ class Projector
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// Prepare the projection to the faces @p master, at least one face. The references must outlive
-  /// this object.
+  /// Prepare the projection to the faces @p master, at least one face, with the @p normals of its
+  /// nodes. The references must outlive this object.
   Projector(const mesh::Surface<dim>        &surface,
             const std::vector<unsigned int> &master,
             const faces::FaceShape<dim>     &shape,
             const Field                     &positions,
             const Field                     &normals);
 
-  /// Return the projection of @p p, or nothing beyond the edge of the master side.
-  std::optional<PointProjection<dim>> onto(const dealii::Tensor<1, dim> &p) const;
+  /// Return the projection of @p p with the normal @p of_slave, n_p, or nothing beyond the edge of
+  /// the master side.
+  std::optional<PointProjection<dim>> onto(const dealii::Tensor<1, dim> &p,
+                                           const dealii::Tensor<1, dim> &of_slave) const;
+
+  /// Return the projection of @p p also beyond the edge, where it is the closest point.
+  PointProjection<dim> nearest(const dealii::Tensor<1, dim> &p,
+                               const dealii::Tensor<1, dim> &of_slave) const
+  {
+    return projection(p, of_slave, side.closest(at_height(p, of_slave)), 0.);
+  }
 
 private:
   const mesh::Surface<dim>              &surface;
@@ -93,17 +103,31 @@ private:
   const faces::OuterEdges<dim>           edges;
   std::vector<std::vector<unsigned int>> faces_at; ///< per surface node
 
-  ProjectionEquations<dim> equations(unsigned int face) const
+  ProjectionEquations<dim> equations(unsigned int                  face,
+                                     const dealii::Tensor<1, dim> &of_slave) const
   {
-    return {surface.faces()[face], shape, positions, normals};
+    return {surface.faces()[face], shape, positions, normals, of_slave};
   }
 
-  /// Return the face and the coordinates of the normal that leads to @p p, searched near the
-  /// closest point. Return nothing where the side ends.
+  /// Return @p p, moved along v at its closest point to the height of this point. Beside a curved
+  /// side the foot point along the mean of two normals may be several faces off the closest point
+  /// of p. Return @p p itself if @p of_slave is 0.
+  dealii::Tensor<1, dim> at_height(const dealii::Tensor<1, dim> &p,
+                                   const dealii::Tensor<1, dim> &of_slave) const;
+
+  /// Return the face and the coordinates of the foot point of @p p, searched near the point
+  /// @p start. Return nothing where the side ends.
   std::optional<std::pair<unsigned int, dealii::Point<dim - 1>>>
-  find_normal(const dealii::Tensor<1, dim> &p,
-              unsigned int                  face,
-              const dealii::Point<dim - 1> &closest) const;
+  find_normal(const dealii::Tensor<1, dim>           &p,
+              const dealii::Tensor<1, dim>           &of_slave,
+              const typename NearestFace<dim>::Found &start) const;
+
+  /// Return the projection of @p p, which is the point @p start where no v leads to p. @p excess is
+  /// the distance of p beyond the edge.
+  PointProjection<dim> projection(const dealii::Tensor<1, dim>           &p,
+                                  const dealii::Tensor<1, dim>           &of_slave,
+                                  const typename NearestFace<dim>::Found &start,
+                                  double                                  excess) const;
 };
 
 /// Return the projections of the slave nodes that do not hang, in the order of the slave faces and
@@ -113,7 +137,7 @@ std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &s
                                      const PairFaces                          &sides,
                                      const faces::FaceShape<dim>              &shape,
                                      const typename mesh::Surface<dim>::Field &positions,
-                                     const typename mesh::Surface<dim>::Field &normals);
+                                     const typename PairNormals<dim>::Fields  &normals);
 } // namespace snug::contact
 
 #endif

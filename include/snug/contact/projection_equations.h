@@ -38,8 +38,9 @@ struct ReducedEquations
 
 /**
  * This class provides the equations of projections to a master face at given positions. A point p
- * is projected to x(xi) along the normal v(xi) = sum_k N_k(xi) n_k of the face, with the nodal
- * normals n_k: p = x(xi) + t v(xi).
+ * is projected to x(xi) along v(xi) = sum_k N_k(xi) n_k - n_p: p = x(xi) + t v(xi). n_k are the
+ * nodal normals of the face. n_p is the normal of the slave at p where points are paired along the
+ * mean of both normals (PairNormals), and 0 where they are paired along the normal of the face.
  */
 template <int dim>
 class ProjectionEquations
@@ -67,12 +68,14 @@ public:
     dealii::Tensor<2, dim> point_slope; ///< derivative of x + s v, like slope of Point
   };
 
-  /// Prepare the equations of @p face. The references must outlive this object.
-  ProjectionEquations(const Face                  &face,
-                      const faces::FaceShape<dim> &shape,
-                      const Field                 &positions,
-                      const Field                 &normals)
-    : face(face), shape(shape), positions(positions), normals(normals)
+  /// Prepare the equations of @p face for points with the normal @p of_slave, n_p. The references
+  /// must outlive this object.
+  ProjectionEquations(const Face                   &face,
+                      const faces::FaceShape<dim>  &shape,
+                      const Field                  &positions,
+                      const Field                  &normals,
+                      const dealii::Tensor<1, dim> &of_slave = {})
+    : face(face), shape(shape), positions(positions), normals(normals), of_slave(of_slave)
   {}
 
   /// Return the point at @p xi and @p t. Without @p t, return the point of the normal closest to
@@ -94,6 +97,7 @@ private:
   const Face                  &face;
   const faces::FaceShape<dim> &shape;
   const Field                 &positions, &normals;
+  dealii::Tensor<1, dim>       of_slave; ///< n_p
 };
 } // namespace snug::contact
 

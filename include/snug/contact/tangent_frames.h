@@ -27,16 +27,19 @@ public:
   frame(unsigned int slave, const Row<dim> &row, bool relies_on_master) const;
 
 private:
-  const PairGeometry<dim>                pair;
-  std::optional<NearestFace<dim>>        nearest; ///< none for obstacles
-  std::vector<bool>                      on_master;
-  std::vector<std::vector<unsigned int>> faces_of_node; ///< of the master
+  /// Faces of a side at its nodes, and at the masters of its hanging nodes; one list per surface
+  /// node.
+  using FacesAtNodes = std::vector<std::vector<unsigned int>>;
 
-  std::pair<std::vector<unsigned int>, std::vector<unsigned int>>
-                         nodes_at_foot(unsigned int slave) const;
-  void                   set_masters(const Row<dim>                  &row,
-                                     const std::vector<unsigned int> &around_foot,
-                                     TangentFrame<dim>               &frame) const;
+  const PairGeometry<dim>         pair;
+  std::optional<NearestFace<dim>> nearest;           ///< none for obstacles
+  FacesAtNodes                    of_slave, of_master; ///< empty for obstacles
+
+  FacesAtNodes              faces_at_nodes(const std::vector<unsigned int> &side) const;
+  std::vector<unsigned int> nodes_at_foot(unsigned int slave) const;
+  void                      add_couple(const Row<dim>     &row,
+                                       const FacesAtNodes &side,
+                                       TangentFrame<dim>  &frame) const;
   dealii::Tensor<2, dim> movable_directions(unsigned int                     slave,
                                             const std::vector<unsigned int> &opposite,
                                             const dealii::Tensor<1, dim>    &normal) const;

@@ -5,17 +5,22 @@
 #include <snug/faces/point_field.h>
 
 namespace snug::contact {
+/// The part of the couple of a tangential row that acts on one side.
+struct CoupleNodes
+{
+  std::vector<unsigned int> nodes; ///< surface nodes
+  unsigned int spread = 0; ///< number of tangential directions in which these nodes spread, above 0
+};
+
 /// Data of the tangential rows of one contact row that a contact search fixes.
 template <int dim>
 struct TangentFrame
 {
   /// direction in space from which the tangents in 3D are made
   dealii::Tensor<1, dim> reference;
-  /// surface nodes of the master on which the couple acts; empty: no couple
-  std::vector<unsigned int> masters;
-  /// number of tangential directions in which these nodes spread, see tangent_row(); 0: no couple
-  unsigned int           spread = 0;
-  dealii::Tensor<1, dim> displacement; ///< of the obstacle in space [length]
+  /// the sides on which equal parts of the couple act; empty: no couple
+  std::vector<CoupleNodes> couple;
+  dealii::Tensor<1, dim>   displacement; ///< of the obstacle in space [length]
 };
 
 /**
@@ -36,11 +41,14 @@ dealii::Tensor<1, dim, Number> tangent_direction(const dealii::Tensor<1, dim>   
  * where c_a are the coefficients of the normal row, and its gap is t . w with the displacement w of
  * an obstacle. The forces f_a t alone would have the moment -g n x t, g = -n . sum_a f_a x_a, so
  * that common rotations of both bodies would slip where there is a gap g. The couple beta_a n on
- * nodes of the master, which may be others than those of the row, cancels this moment:
- *   beta_a = y_a . v,  v = -g H^+ t,  H = sum_a P y_a y_a' P,  P = I - n n',
- * where y_a is the position relative to the mean of these nodes. H^+ is the inverse of H in the
- * tangent plane if the nodes spread in all of its directions. It is H / tr(H)^2, which is the
- * pseudoinverse, if the nodes lie on a line.
+ * nodes of both sides, which may be others than those of the row, cancels this moment. Each side
+ * has half of it, so that opposite rotations of the two sides, as where a gap between mirror images
+ * closes, do not slip either:
+ *   beta_a = y_a . v,  v = -g/2 H^+ t,  H = sum_a P y_a y_a' P,  P = I - n n',
+ * where y_a is the position relative to the mean of the nodes of the side. H^+ is the inverse of H
+ * in the tangent plane if the nodes spread in all of its directions. It is H / tr(H)^2, which is
+ * the pseudoinverse, if the nodes lie on a line. If the nodes of one side do not spread, the other
+ * side has the whole couple.
  */
 template <int dim, typename Number>
 Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
@@ -58,11 +66,13 @@ Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
   return tangent_row(row, tangent_direction(frame.reference, row.normal, index), frame, x);
 }
 
-/// Return in how many directions at right angles to @p normal the masters of @p frame spread: by
-/// more than 1/1000 of their spread in space and of their largest tangential spread.
+/// Return in how many directions at right angles to @p normal the @p nodes spread: by more than
+/// 1/1000 of their spread in space and of their largest tangential spread. @p reference is that of
+/// their TangentFrame.
 template <int dim>
 unsigned int tangential_spread(const dealii::Tensor<1, dim>             &normal,
-                               const TangentFrame<dim>                  &frame,
+                               const dealii::Tensor<1, dim>             &reference,
+                               const std::vector<unsigned int>          &nodes,
                                const typename mesh::Surface<dim>::Field &positions);
 } // namespace snug::contact
 

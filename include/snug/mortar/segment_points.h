@@ -5,6 +5,7 @@
 #include <snug/mesh/idealization.h>
 
 #include <functional>
+#include <optional>
 
 namespace snug::mortar {
 /// A point of the slave face and the point of the master face that it meets.
@@ -26,7 +27,9 @@ struct MortarFace
 {
   FaceNodes<dim, Number> nodes;
   /// offsets from the face to its true surface, at the samples of the face; empty: none
-  FaceNodes<dim, Number> offsets;
+  FaceNodes<dim, Number> offsets = {};
+  /// vector along which a slave face is projected; none: the normal at its centre
+  std::optional<std::array<Number, dim>> direction = {};
 };
 
 /// A box in the coordinates of a face; lower > upper if the box is empty.
@@ -44,9 +47,9 @@ struct CoverBox
 
 /**
  * This class is a quadrature of the part of a slave face that lies opposite to a master face (Puso,
- * Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004). Both faces are projected along the normal
- * n_0 at the centre of the slave face into coordinates y = (t.t)^-1 t.(x - c) of the plane of the
- * tangents t there. The cells of the faces (halves along each coordinate for quadratic faces) are
+ * Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004). Both faces are projected along n_0, the
+ * direction of the slave face or the normal at its centre, into the plane of the tangents t there:
+ * x - c = t y + s n_0. The cells of the faces (halves along each coordinate for quadratic faces) are
  * intersected. The vertices are mapped back to the slave face, where the pieces are triangulated.
  * The pieces cover the slave face without a gap, and polynomials on it are integrated exactly.
  * Quadrature points are projected to the master along n_0.
@@ -62,14 +65,14 @@ public:
   /// are parallelograms.
   template <typename Number>
   void for_each_point(
-    const FaceNodes<dim, Number>                                                  &slave,
-    const FaceNodes<dim, Number>                                                  &master,
+    const MortarFace<dim, Number>                                                 &slave,
+    const MortarFace<dim, Number>                                                 &master,
     const std::function<void(const std::function<SegmentPoint<dim, Number>()> &)> &visit) const;
 
   /// Widen @p box to contain the part of the slave face opposite to the master.
-  void add_cover(const FaceNodes<dim, double> &slave,
-                 const FaceNodes<dim, double> &master,
-                 CoverBox<dim>                &box) const;
+  void add_cover(const MortarFace<dim, double> &slave,
+                 const MortarFace<dim, double> &master,
+                 CoverBox<dim>                 &box) const;
 
   /// Return the shape functions of both faces at @p xi.
   template <typename Number>
@@ -80,9 +83,9 @@ public:
 
   /// Return whether the faces overlap if the slave face is widened by @p margin, a fraction of its
   /// size, on all sides.
-  bool overlap(const FaceNodes<dim, double> &slave,
-               const FaceNodes<dim, double> &master,
-               double                        margin) const;
+  bool overlap(const MortarFace<dim, double> &slave,
+               const MortarFace<dim, double> &master,
+               double                         margin) const;
 
 private:
   /// Barycentric coordinates in a simplex with the weight, a fraction of the measure of the

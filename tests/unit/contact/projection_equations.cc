@@ -98,38 +98,49 @@ void expect_exact_slopes(unsigned int degree)
     }
 }
 
-/// Weights of the moving foot point along a random velocity: forward against differences, and
-/// reverse against forward.
+/// Weights of the moving foot point along a random velocity, with or without normals of the slave:
+/// forward against differences, and reverse against forward.
 template <int dim>
-void expect_exact_weights(unsigned int degree)
+void expect_exact_weights(unsigned int degree, bool has_mean_normals)
 {
   RoundFace<dim> round(degree);
   const auto    &scene    = round.scene;
   const auto     velocity = scene.random_velocity(1);
-  const auto     dn       = TwoBoxes<dim>::random_field(2, round.normals.size());
+  const unsigned int size = round.normals.size();
+  const auto     dn = TwoBoxes<dim>::random_field(2, size), dm = TwoBoxes<dim>::random_field(3, size);
   const double   h        = 1e-5;
   unsigned int   n_moving = 0;
+  // Slave normals that are not opposite to those of the master.
+  auto of_slave = TwoBoxes<dim>::random_field(4, size);
+  for (auto &m : of_slave)
+    {
+      m *= has_mean_normals ? 0.1 : 0.;
+      m[dim - 1] -= has_mean_normals ? 1. : 0.;
+    }
   for (const auto &projection : scene.projections())
     {
       const NormalProjection<dim> moving(scene.surface, round.shape, projection, scene.positions,
-                                         round.normals);
+                                         {round.normals, of_slave});
       using Forward      = faces::Differential<1>;
+      const faces::PointField<dim, Forward> n_forward(round.normals, dn), m_forward(of_slave, dm);
       const auto forward = moving.at(faces::PointField<dim, Forward>(scene.positions, velocity),
-                                     faces::PointField<dim, Forward>(round.normals, dn));
+                                     NormalFields<dim, Forward>{n_forward, m_forward});
       std::vector<double> numbers(forward.surface.size(), 0.);
       for (const auto &[step, factor] : {std::make_pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}})
         {
           const auto x = sum(scene.positions, step * h, velocity);
           const auto n = sum(round.normals, step * h, dn);
+          const auto m = has_mean_normals ? sum(of_slave, step * h, dm) : of_slave;
+          const faces::PointField<dim, double> of_n(n), of_m(m);
           const auto there =
-            moving.at(faces::PointField<dim, double>(x), faces::PointField<dim, double>(n));
+            moving.at(faces::PointField<dim, double>(x), NormalFields<dim, double>{of_n, of_m});
           for (unsigned int k = 0; k < numbers.size(); ++k)
             numbers[k] += factor / (12. * h) * there.surface[k].second;
         }
       faces::Recording                              recording;
       const faces::PointField<dim, faces::Recorded> x(scene.positions, recording),
-        n(round.normals, recording);
-      const auto reverse = moving.at(x, n);
+        n(round.normals, recording), m(of_slave, recording);
+      const auto reverse = moving.at(x, NormalFields<dim, faces::Recorded>{n, m});
       double     direct  = 0.;
       for (unsigned int k = 0; k < numbers.size(); ++k)
         {
@@ -138,14 +149,15 @@ void expect_exact_weights(unsigned int degree)
           direct += (k + 1.) * forward.surface[k].second.slope[0];
         }
       recording.sweep();
-      typename TwoBoxes<dim>::Field by_x(velocity.size()), by_n(dn.size());
+      typename TwoBoxes<dim>::Field by_x(velocity.size()), by_n(dn.size()), by_m(dm.size());
       x.add_derivatives(by_x);
       n.add_derivatives(by_n);
+      m.add_derivatives(by_m);
       double transposed = 0.;
       for (unsigned int i = 0; i < by_x.size(); ++i)
         transposed += by_x[i] * velocity[i];
       for (unsigned int i = 0; i < by_n.size(); ++i)
-        transposed += by_n[i] * dn[i];
+        transposed += by_n[i] * dn[i] + by_m[i] * dm[i];
       EXPECT_NEAR(direct, transposed, 1e-11 * (1. + std::abs(direct)));
       n_moving += std::abs(direct) > 1e-3;
     }
@@ -210,7 +222,10 @@ TEST(NormalProjection, DerivativesOfWeightsAgreeWithFiniteDifferences)
 {
   for (const unsigned int degree : {1, 2})
     {
-      expect_exact_weights<2>(degree);
-      expect_exact_weights<3>(degree);
+      for (const bool has_mean_normals : {false, true})
+        {
+          expect_exact_weights<2>(degree, has_mean_normals);
+          expect_exact_weights<3>(degree, has_mean_normals);
+        }
     }
 }

@@ -109,7 +109,8 @@ struct TwoBoxes
       (surface.faces()[f].body == 0 ? sides.slave : sides.master).push_back(f);
     const snug::faces::FaceShape<dim>    shape(mesh.degree());
     const snug::faces::NodalNormals<dim> normals(surface, sides.master, shape, positions);
-    return snug::contact::project(surface, sides, shape, positions, normals.normals());
+    return snug::contact::project<dim>(surface, sides, shape, positions,
+                                       {normals.normals(), Field(surface.n_nodes())});
   }
 
   /// Bend both sides, without penetration at first sight; hanging nodes follow
