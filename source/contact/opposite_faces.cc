@@ -63,11 +63,10 @@ std::vector<std::size_t> near(const FaceTree<dim> &masters, const SearchFace<dim
   around.extend(1.5 * masters.bound(slave.centre) + diameter(slave.box));
   return masters.meeting(around);
 }
-} // namespace
 
 template <int dim>
-std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim>  &pair,
-                                                      const MortarNormals<dim> &normals)
+std::vector<std::vector<unsigned int>> find_opposite(const PairGeometry<dim>  &pair,
+                                                     const MortarNormals<dim> &normals)
 {
   const auto &slaves      = pair.sides.slave;
   const auto  search_face = [&](unsigned int face) {
@@ -104,6 +103,14 @@ std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim>  &
   for (unsigned int i = 0; i < slaves.size(); ++i)
     result[i].assign(found[i].begin(), found[i].end());
   return result;
+}
+} // namespace
+
+template <int dim>
+std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim>  &pair,
+                                                      const MortarNormals<dim> &normals)
+{
+  return find_opposite(pair, normals);
 }
 
 template std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<2> &,

@@ -90,7 +90,7 @@ void for_each_pair_of_images(const Check &check)
 {
   for (const Method method : {Method::nodal, Method::mortar})
     for (const unsigned int degree : {1, 2})
-      for (const double radius : {1.2, -1.2})
+      for (const double radius : {1.5, -1.5})
         {
           SCOPED_TRACE(std::to_string(dim) + "D, degree " + std::to_string(degree) +
                        (method == Method::nodal ? ", nodal" : ", mortar") +
