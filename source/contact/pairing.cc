@@ -69,8 +69,9 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
     for (const auto &part : of.parts)
       {
         const Pair &pair = pairs[part.pair];
-        named[part.pair] = {pair.slave_name, pair.master_name, pair.obstacle, {}};
-        if (!pair.slave.has(part.slave))
+        const bool  exchanged = !pair.slave.has(part.slave);
+        named[part.pair] = {pair.slave_name, pair.master_name, pair.obstacle, {}, exchanged};
+        if (exchanged)
           std::swap(named[part.pair].slave_name, named[part.pair].master_name);
       }
   make_groups(x, q);

@@ -41,7 +41,7 @@ public:
   double value(const state::StateSolver<dim>  &solver,
                const state::ContactState<dim> &state) const override
   {
-    const auto shares = row_shares(solver, parameters.pair, state.load_case);
+    const auto shares = shares_of(solver, state.load_case);
     const auto rows =
       solver.contact(state.load_case).rows(solver.surface().gather(state.positions));
     double force = 0.;
@@ -82,7 +82,7 @@ public:
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    const auto    shares = row_shares(solver, parameters.pair, state.load_case);
+    const auto    shares = shares_of(solver, state.load_case);
     Partials<dim> result;
     // J is linear in the forces, so its derivatives are the factors of value().
     result.forces = shares;
@@ -118,6 +118,15 @@ public:
 
 private:
   const ResponseParameters parameters;
+
+  /// Components have the sign of the force on the side named first.
+  std::vector<double> shares_of(const state::StateSolver<dim> &solver,
+                                const unsigned int             load_case) const
+  {
+    return parameters.component == Component::normal
+             ? row_shares(solver, parameters.pair, load_case)
+             : row_shares_of_first_side(solver, parameters.pair, load_case);
+  }
 };
 } // namespace
 

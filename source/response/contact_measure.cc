@@ -184,6 +184,23 @@ private:
   const AmountOf                 amount;
   bool                           of_pressure; ///< the amount is the normal force
 };
+
+/// Return the sum of factor(pair) times the shares over the pairs with the @p name, or all pairs.
+template <int dim, typename Factor>
+std::vector<double> summed_shares(const state::StateSolver<dim> &solver,
+                                  const std::string             &name,
+                                  const unsigned int             load_case,
+                                  const Factor                  &factor)
+{
+  const auto         &contact = solver.contact(load_case);
+  const auto          chosen  = chosen_pairs(solver, name, load_case);
+  std::vector<double> result(contact.n_rows(), 0.);
+  for (unsigned int p = 0; p < chosen.size(); ++p)
+    if (chosen[p])
+      for (const auto &[row, share] : contact.named_pairs()[p].rows)
+        result[row] += factor(contact.named_pairs()[p]) * share;
+  return result;
+}
 } // namespace
 
 Amount normal_force(const state::ContactPoint &point, const contact::RowFriction &)
@@ -246,16 +263,18 @@ std::vector<double> row_shares(const state::StateSolver<dim> &solver,
                                const std::string             &name,
                                const unsigned int             load_case)
 {
-  const auto         &contact = solver.contact(load_case);
-  const auto          chosen  = chosen_pairs(solver, name, load_case);
-  std::vector<double> result(contact.n_rows(), name.empty() ? 1. : 0.);
   if (name.empty()) // exactly 1, not a sum of shares
-    return result;
-  for (unsigned int p = 0; p < chosen.size(); ++p)
-    if (chosen[p])
-      for (const auto &[row, share] : contact.named_pairs()[p].rows)
-        result[row] += share;
-  return result;
+    return std::vector<double>(solver.contact(load_case).n_rows(), 1.);
+  return summed_shares(solver, name, load_case, [](const auto &) { return 1.; });
+}
+
+template <int dim>
+std::vector<double> row_shares_of_first_side(const state::StateSolver<dim> &solver,
+                                             const std::string             &name,
+                                             const unsigned int             load_case)
+{
+  return summed_shares(solver, name, load_case,
+                       [](const auto &pair) { return pair.master_is_first ? -1. : 1.; });
 }
 
 template <int dim>
@@ -306,6 +325,8 @@ template std::vector<bool>
 chosen_pairs(const state::StateSolver<3> &, const std::string &, unsigned int);
 template std::vector<double>
 row_shares(const state::StateSolver<2> &, const std::string &, unsigned int);
+template std::vector<double>
+row_shares_of_first_side(const state::StateSolver<2> &, const std::string &, unsigned int);
 template std::unique_ptr<Response<2>> contact_measure(const ResponseParameters &,
                                                       const Measure &,
                                                       const std::vector<std::string> &,
@@ -313,6 +334,8 @@ template std::unique_ptr<Response<2>> contact_measure(const ResponseParameters &
                                                       const AmountOf &);
 template std::vector<double>
 row_shares(const state::StateSolver<3> &, const std::string &, unsigned int);
+template std::vector<double>
+row_shares_of_first_side(const state::StateSolver<3> &, const std::string &, unsigned int);
 template std::unique_ptr<Response<3>> contact_measure(const ResponseParameters &,
                                                       const Measure &,
                                                       const std::vector<std::string> &,

@@ -6,7 +6,8 @@
 namespace snug::response {
 namespace {
 /// The friction forces of a pair, or their moment. J = -sum q . v with the virtual motion v = e or
-/// v = e x (x - p) of the slave side, on which -q acts.
+/// v = e x (x - p) of the slave side, on which -q acts. If the scene names the master first, the
+/// shares of the rows are negative (row_shares_of_first_side()).
 template <int dim>
 class FrictionForce : public Response<dim>
 {
@@ -47,7 +48,7 @@ public:
   {
     const auto    x       = solver.surface().gather(state.positions);
     const auto   &contact = solver.contact(state.load_case);
-    const auto    shares  = row_shares(solver, parameters.pair, state.load_case);
+    const auto    shares  = row_shares_of_first_side(solver, parameters.pair, state.load_case);
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
     result.forces.resize(contact.n_rows() + contact.tangents().size(), 0.);
@@ -86,7 +87,7 @@ private:
                      const Use                      &use) const
   {
     const auto &contact = solver.contact(state.load_case);
-    const auto  shares  = row_shares(solver, parameters.pair, state.load_case);
+    const auto  shares  = row_shares_of_first_side(solver, parameters.pair, state.load_case);
     const auto  rows    = solver.rows(state.positions, state.load_case);
     const auto  all     = state::contact_row_forces(solver, state);
     const auto  x       = solver.surface().gather(state.positions);

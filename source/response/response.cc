@@ -60,7 +60,8 @@ ChoiceTable<MakeResponse<dim>> contact_responses()
 {
   return {
     {"contact force",
-     "sum of the contact forces on the slave side of one pair or all pairs [force]",
+     "sum of the normal contact forces of one pair or all pairs, or with 'Component' of all contact "
+     "forces on the side that 'Pairs' names first [force]",
      contact_force<dim>},
     {"contact area",
      "area int (1 + e^2) q^2 / (q^2 + e^2 m^2) dA with the pressure q, its mean m weighted by "
@@ -140,8 +141,8 @@ ChoiceTable<MakeResponse<dim>> friction_responses()
          shear_reserve);
      }},
     {"friction force",
-     "component of the sum of the friction forces on the slave side of one pair or all pairs "
-     "[force]",
+     "component of the sum of the friction forces of one pair or all pairs on the side that "
+     "'Pairs' names first [force]",
      friction_force<dim>},
     {"friction moment",
      "moment of these forces about the axis 'Component' through 'Point' in space [force length]",

@@ -28,6 +28,7 @@ struct NamedPair
   /// ascending row indices with shares: the parts of the force and of the area of each row that
   /// belong to this pair
   std::vector<std::pair<unsigned int, double>> rows;
+  bool master_is_first; ///< the scene names the master side first
 
   /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }

@@ -21,6 +21,13 @@ template <int dim>
 std::vector<double>
 row_shares(const state::StateSolver<dim> &solver, const std::string &name, unsigned int load_case);
 
+/// Return the shares of row_shares() with the sign of the forces on the side that the scene names
+/// first: plus if this side is the slave, minus if it is the master.
+template <int dim>
+std::vector<double> row_shares_of_first_side(const state::StateSolver<dim> &solver,
+                                             const std::string             &name,
+                                             unsigned int                   load_case);
+
 /// Return virtual motions of the nodes of the slave side of a pair, a function of their positions
 /// in space, in the frames of the bodies. Other nodes are at rest.
 template <int dim>
