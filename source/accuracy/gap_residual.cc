@@ -69,13 +69,13 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                     faces::tangents<dim>(on_surface, face.samples, state.positions));
                 }
               const auto gap =
-                gaps->at(solver.motion(load_case, face.body).point(place), point.shape);
+                gaps->at(solver.motion(load_case, face.body).point(place), point.shape,
+                         {face.body, face.boundary});
               if (!gap)
                 continue;
               point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();
               point.gap  = *gap;
-              point.named    = contact.joined_pairs()[p].pair_of({face.body, face.boundary},
-                                                                 point.gap.master_boundary);
+              point.named    = gap->pair;
               point.residual = gap->gap - jump(point, u);
               points.push_back(point);
             }

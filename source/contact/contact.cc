@@ -80,7 +80,8 @@ void Contact<dim>::measure_pairing(const Field &positions, const std::vector<Row
         }
       gaps[p].least   = std::min(gaps[p].least, gap);
       gaps[p].largest = std::max(gaps[p].largest, gap);
-      gaps[p].overlap = std::max(gaps[p].overlap, -gap / sizes[slave]);
+      if (!named[of].parameters.interference)
+        gaps[p].overlap = std::max(gaps[p].overlap, -gap / sizes[slave]);
     }
 }
 
@@ -96,9 +97,32 @@ typename Contact<dim>::Group Contact<dim>::make_group(const PairGeometry<dim> &g
   else
     group.rows = std::make_unique<MortarRows<dim>>(geometry);
   group.step = gap_step * geometry.slave_size();
-  if (parameters.gap != "0")
-    group.offset = std::make_unique<geometry::Formula<dim>>("Gap", parameters.gap);
   return group;
+}
+
+/// Return the sum of the gap formulas of the pairs of row @p i. They are evaluated at the slave's
+/// position in the design, because they belong to places, not to the material. They move with the
+/// slave's body.
+template <int dim>
+double Contact<dim>::gap_offset(const unsigned int i, const Field &positions) const
+{
+  const dealii::Point<dim> at(positions[row_places[i].slave]);
+  double                   sum = 0.;
+  for (const auto &[named, share] : gap_shares[i])
+    sum += share * gap_formulas[named]->value(at);
+  return sum;
+}
+
+template <int dim>
+dealii::Tensor<1, dim> Contact<dim>::gap_offset_gradient(const unsigned int i,
+                                                         const Field       &positions) const
+{
+  const dealii::Point<dim> at(positions[row_places[i].slave]);
+  const double             step = groups[row_places[i].pair].step;
+  dealii::Tensor<1, dim>   sum;
+  for (const auto &[named, share] : gap_shares[i])
+    sum += share * gap_formulas[named]->gradient(at, step);
+  return sum;
 }
 
 template <int dim>
@@ -110,11 +134,7 @@ std::vector<Row<dim>> Contact<dim>::rows(const Field &positions) const
   for (const Group &group : groups)
     for (Row<dim> &row : group.rows->rows(in_space))
       {
-        const unsigned int slave = row_places[result.size()].slave;
-        if (group.offset)
-          // The formula is evaluated at the slave's position in the design, because the formula
-          // belongs to places, not to the material. It moves with the slave's body.
-          row.gap += group.offset->value(dealii::Point<dim>(positions[slave]));
+        row.gap += gap_offset(result.size(), positions);
         result.push_back(std::move(row));
       }
   return placed.turned_back(std::move(result));
@@ -131,11 +151,9 @@ std::vector<Row<dim>> Contact<dim>::row_derivatives(const Field &positions,
   for (const Group &group : groups)
     for (Row<dim> &row : group.rows->row_derivatives(in_space, motion))
       {
-        const unsigned int slave = row_places[result.size()].slave;
-        if (group.offset)
-          // d/dt g(x_s(t)) = grad g . V_s
-          row.gap += group.offset->gradient(dealii::Point<dim>(positions[slave]), group.step) *
-                     velocity[slave];
+        // d/dt g(x_s(t)) = grad g . V_s
+        const unsigned int i = result.size();
+        row.gap += gap_offset_gradient(i, positions) * velocity[row_places[i].slave];
         result.push_back(std::move(row));
       }
   return placed.turned_back(std::move(result));
@@ -177,12 +195,9 @@ typename Contact<dim>::Field Contact<dim>::energy_gradient(const Field          
       const std::vector<RowSlopes<dim>> of_group(first, first + slaves.size());
       first += slaves.size();
       group.rows->add_gradient(in_space, of_group, gradient);
-      if (group.offset)
-        for (unsigned int i = 0; i < slaves.size(); ++i)
-          of_offsets[slaves[i]] +=
-            of_group[i].gap *
-            group.offset->gradient(dealii::Point<dim>(positions[slaves[i]]), group.step);
     }
+  for (unsigned int i = 0; i < slopes.size(); ++i)
+    of_offsets[row_places[i].slave] += slopes[i].gap * gap_offset_gradient(i, positions);
   gradient = placed.turned_back(std::move(gradient));
   for (unsigned int point = 0; point < gradient.size(); ++point)
     gradient[point] += of_offsets[point];
@@ -256,7 +271,7 @@ Contact<dim>::point_gaps(const unsigned int                p,
                          const Field                      &positions,
                          const faces::HeldDirections<dim> &held) const
 {
-  return std::make_unique<PointGaps<dim>>(geometry(p, positions, held));
+  return std::make_unique<PointGaps<dim>>(geometry(p, positions, held), joined[p], gap_formulas);
 }
 
 template <int dim>

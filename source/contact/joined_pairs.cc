@@ -1,4 +1,5 @@
 #include <snug/base/disjoint_sets.h>
+#include <snug/base/errors.h>
 #include <snug/contact/joined_pairs.h>
 #include <snug/faces/nodal_normals.h>
 #include <snug/geometry/face_list.h>
@@ -25,6 +26,20 @@ bool are_equal(const PairParameters &a, const PairParameters &b)
                     p.friction, p.friction_coefficient, p.friction_bound);
   };
   return all(a) == all(b);
+}
+
+/// Throw an error if two pairs with different entries bring together the same boundaries.
+void check_entries(const std::vector<Pair> &pairs, const std::vector<JoinedPair::Part> &parts)
+{
+  for (const auto &a : parts)
+    for (const auto &b : parts)
+      if (a.pair < b.pair && a.slave == b.slave && a.master == b.master &&
+          pairs[a.pair].obstacle.has_value() == pairs[b.pair].obstacle.has_value() &&
+          (!pairs[a.pair].obstacle || pairs[a.pair].obstacle->name == pairs[b.pair].obstacle->name) &&
+          !are_equal(pairs[a.pair].parameters, pairs[b.pair].parameters))
+        throw bad_entry("Contact/Pairs", pairs[b.pair].name(),
+                        "brings together the same faces as '" + pairs[a.pair].name() +
+                          "', which has other entries");
 }
 
 /// Return the pairs of one boundary of each side.
@@ -135,6 +150,23 @@ unsigned int JoinedPair::pair_of(const Boundary &slave, const Boundary &master) 
   return found == parts.end() ? parts.front().pair : found->pair;
 }
 
+PairParameters joined_parameters(const PairParameters &a, const PairParameters &b)
+{
+  PairParameters result = a;
+  if (!a.method || b.method == Method::mortar)
+    result.method = b.method;
+  if (b.slave == Slave::first)
+    result.slave = b.slave;
+  // A search distance of 0 means no limit.
+  result.search_distance = std::min(a.search_distance, b.search_distance) == 0.
+                             ? 0.
+                             : std::max(a.search_distance, b.search_distance);
+  result.largest_angle   = std::max(a.largest_angle, b.largest_angle);
+  if (!a.has_friction())
+    result.friction = b.friction;
+  return result;
+}
+
 void JoinedPair::swap_slave_master()
 {
   exchange(pair);
@@ -152,14 +184,19 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
   const SmoothSurfaces<dim> smooth(surface, shape, pairs, positions);
   const auto                can_join = [&](const JoinedPair::Part &a, const JoinedPair::Part &b) {
     const auto &obstacle = pairs[a.pair].obstacle, &other = pairs[b.pair].obstacle;
-    if (!are_equal(pairs[a.pair].parameters, pairs[b.pair].parameters) || !obstacle != !other ||
-        !smooth.meet(a.slave, b.slave))
+    if (!obstacle != !other || !smooth.meet(a.slave, b.slave))
       return false;
     return obstacle ? obstacle->name == other->name
                                    : smooth.surface_of(a.master) == smooth.surface_of(b.master);
   };
+  // Pairs with a fixed slave side come first, because only other pairs can follow them.
+  std::vector<unsigned int> order;
+  for (const bool fixed : {true, false})
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if ((pairs[p].parameters.slave == Slave::first) == fixed)
+        order.push_back(p);
   std::vector<JoinedPair::Part> parts;
-  for (unsigned int p = 0; p < pairs.size(); ++p)
+  for (const unsigned int p : order)
     {
       const auto joins = [&](const std::vector<JoinedPair::Part> &own) {
         return std::any_of(own.begin(), own.end(), [&](const auto &part) {
@@ -178,6 +215,9 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
         }
       parts.insert(parts.end(), own.begin(), own.end());
     }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto &a, const auto &b) { return a.pair < b.pair; });
+  check_entries(pairs, parts);
   DisjointSets unions(parts.size());
   for (unsigned int i = 0; i < parts.size(); ++i)
     for (unsigned int j = i + 1; j < parts.size(); ++j)
@@ -197,6 +237,7 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
           if (!of.pair.obstacle)
             of.master_surface = smooth.surface_of(part.master);
         }
+      of.pair.parameters = joined_parameters(of.pair.parameters, pairs[part.pair].parameters);
       of.pair.slave.add(part.slave);
       if (!of.pair.obstacle)
         of.pair.master.add(part.master);

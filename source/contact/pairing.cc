@@ -70,10 +70,19 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
       {
         const Pair &pair = pairs[part.pair];
         const bool  exchanged = !pair.slave.has(part.slave);
-        named[part.pair] = {pair.slave_name, pair.master_name, pair.obstacle, {}, exchanged};
+        named[part.pair] = {pair.slave,    pair.master, pair.slave_name, pair.master_name,
+                            pair.obstacle, {},          exchanged,       pair.parameters};
         if (exchanged)
-          std::swap(named[part.pair].slave_name, named[part.pair].master_name);
+          {
+            std::swap(named[part.pair].slave_name, named[part.pair].master_name);
+            std::swap(named[part.pair].slave, named[part.pair].master);
+          }
       }
+  for (const Pair &pair : pairs)
+    gap_formulas.push_back(
+      pair.parameters.gap == "0"
+        ? nullptr
+        : std::make_shared<const geometry::Formula<dim>>("Gap", pair.parameters.gap));
   make_groups(x, q);
   // A list of boundaries stands for all pairs of one boundary of each side. Remove the pairs
   // without rows, because some of them may be too far apart to touch.
@@ -261,6 +270,11 @@ void Contact<dim>::share_rows(const Field &positions, const faces::HeldDirection
           }
         ++row;
       }
+  gap_shares = shares_of_rows([](const PairParameters &of) { return of.gap; });
+  for (Shares &shares : gap_shares)
+    shares.erase(std::remove_if(shares.begin(), shares.end(),
+                                [&](const auto &share) { return !gap_formulas[share.first]; }),
+                 shares.end());
 }
 
 /// Check replicated data, so that all ranks reach the same answer and throw the same error.

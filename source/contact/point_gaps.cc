@@ -3,15 +3,16 @@
 
 namespace snug::contact {
 template <int dim>
-PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
+PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair,
+                          const JoinedPair        &joined,
+                          const Formulas          &formulas)
   : positions(pair.positions)
+  , joined(joined)
+  , formulas(formulas)
   , surface(pair.surface)
   , slave_motion(pair.slave_motion)
   , sides(pair.sides)
 {
-  const auto &parameters = pair.pair.parameters;
-  if (parameters.gap != "0")
-    offset = std::make_unique<geometry::Formula<dim>>("Gap", parameters.gap);
   if (pair.pair.obstacle)
     {
       obstacle = pair.obstacle();
@@ -22,7 +23,7 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair)
                                                pair.has_mean_normals(), positions, pair.held);
   projector = std::make_unique<Projector<dim>>(pair.surface, sides.master, pair.shape, positions,
                                                normals->values().master);
-  if (parameters.method == Method::mortar && !pair.has_mean_normals())
+  if (pair.pair.parameters.method == Method::mortar && !pair.has_mean_normals())
     slave_normals = std::make_unique<faces::NodalNormals<dim>>(pair.surface, sides.slave,
                                                                pair.shape, positions, &pair.held);
 }
@@ -58,9 +59,11 @@ PointGaps<dim>::project(const dealii::Tensor<1, dim> &x,
 
 template <int dim>
 std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
-                                                const Weights                &slave) const
+                                                const Weights                &slave,
+                                                const Boundary               &boundary) const
 {
   PointGap<dim> result;
+  Boundary      master;
   if (obstacle)
     {
       const auto d = obstacle->distance(dealii::Point<dim>(x));
@@ -88,18 +91,25 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       result.gap             = result.normal * (place(*nearest) - x) + nearest->softening;
       result.masters         = nearest->masters;
       const auto &face       = surface.faces()[nearest->face];
-      result.master_boundary = {face.body, face.boundary};
+      master                 = {face.body, face.boundary};
     }
-  if (offset)
-    result.gap += offset->value(dealii::Point<dim>(slave_motion.point_back(x)));
+  result.pair = joined.pair_of(boundary, master);
+  result.gap += offset(result.pair, x);
   return result;
 }
 
+/// Return the gap formula of a pair of the scene at @p x in space.
 template <int dim>
-double PointGaps<dim>::given(const dealii::Tensor<1, dim> &x) const
+double PointGaps<dim>::offset(const unsigned int pair, const dealii::Tensor<1, dim> &x) const
 {
-  const auto in_body = dealii::Point<dim>(slave_motion.point_back(x));
-  double     result  = offset ? offset->value(in_body) : 0.;
+  return formulas[pair] ? formulas[pair]->value(dealii::Point<dim>(slave_motion.point_back(x)))
+                        : 0.;
+}
+
+template <int dim>
+double PointGaps<dim>::given(const dealii::Tensor<1, dim> &x, const Boundary &boundary) const
+{
+  double result = offset(joined.pair_of(boundary, {}), x);
   if (obstacle)
     if (const auto d = obstacle->distance(dealii::Point<dim>(x)))
       result += d->value;

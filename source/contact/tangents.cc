@@ -15,34 +15,38 @@ namespace {
 /// Sine of the angle up to which normals are parallel.
 const double least_angle_of_normals = 1e-6;
 
-/// Return the friction of a pair at the places @p x of the @p nodes.
-/// @throws InputError if it is negative or not finite there
+/// The friction formula of a pair of the scene.
 template <int dim>
-std::vector<RowFriction> frictions_at(const Pair                               &pair,
-                                      const std::vector<unsigned int>          &nodes,
-                                      const typename mesh::Surface<dim>::Field &x)
+class FrictionFormula
 {
-  const Friction     kind       = pair.parameters.friction;
-  const bool         is_coulomb = kind == Friction::Coulomb;
-  const std::string &text =
-    is_coulomb ? pair.parameters.friction_coefficient : pair.parameters.friction_bound;
-  const std::string entry =
-    "Pair " + pair.name() + "/" + (is_coulomb ? "Friction coefficient" : "Friction bound");
-  const geometry::Formula<dim> formula(entry, text);
-  std::vector<RowFriction>     result;
-  for (const unsigned int node : nodes)
-    {
-      const double value = formula.value(dealii::Point<dim>(x[node]));
-      if (value < 0.)
-        {
-          std::ostringstream message;
-          message << "must be 0 or above, but is " << value << " at (" << x[node] << ")";
-          throw bad_entry(entry, text, message.str());
-        }
-      result.push_back({kind, is_coulomb ? value : 0., is_coulomb ? 0. : value});
-    }
-  return result;
-}
+public:
+  explicit FrictionFormula(const NamedPair &pair)
+    : is_coulomb(pair.parameters.friction == Friction::Coulomb)
+    , text(is_coulomb ? pair.parameters.friction_coefficient : pair.parameters.friction_bound)
+    , entry("Pair " + pair.name() + "/" +
+            (is_coulomb ? "Friction coefficient" : "Friction bound"))
+    , formula(entry, text)
+  {}
+
+  /// Return the friction at @p x.
+  /// @throws InputError if it is negative or not finite there
+  RowFriction at(const dealii::Tensor<1, dim> &x) const
+  {
+    const double value = formula.value(dealii::Point<dim>(x));
+    if (value < 0.)
+      {
+        std::ostringstream message;
+        message << "must be 0 or above, but is " << value << " at (" << x << ")";
+        throw bad_entry(entry, text, message.str());
+      }
+    return {is_coulomb ? value : 0., is_coulomb ? 0. : value};
+  }
+
+private:
+  const bool                    is_coulomb;
+  const std::string             text, entry;
+  const geometry::Formula<dim>  formula;
+};
 
 /// Return the rows of each slave node of obstacles with different normals.
 template <int dim>
@@ -124,13 +128,35 @@ Row<dim, faces::Recorded> recorded(const Row<dim> &row, faces::Recording &record
 }
 } // namespace
 
+template <int dim>
+void Contact<dim>::make_frictions()
+{
+  std::vector<std::optional<FrictionFormula<dim>>> formulas(named.size());
+  for (unsigned int pair = 0; pair < named.size(); ++pair)
+    if (named[pair].parameters.has_friction())
+      formulas[pair].emplace(named[pair]);
+  const auto shares = shares_of_rows([](const PairParameters &of) {
+    return std::tie(of.friction, of.friction_coefficient, of.friction_bound);
+  });
+  frictions.assign(n_rows(), {});
+  for (unsigned int row = 0; row < n_rows(); ++row)
+    for (const auto &[pair, share] : shares[row])
+      if (formulas[pair])
+        {
+          const auto of_pair =
+            formulas[pair]->at(placed.unmoved().reference_positions()[row_places[row].slave]);
+          frictions[row].coefficient += share * of_pair.coefficient;
+          frictions[row].bound += share * of_pair.bound;
+        }
+}
+
 /// Make the tangential rows at @p positions in space.
 template <int dim>
 void Contact<dim>::make_tangents(const Field                      &positions,
                                  const faces::HeldDirections<dim> &held,
                                  const std::vector<Row<dim>>      &paired)
 {
-  frictions.assign(n_rows(), {});
+  make_frictions();
   frames.assign(n_rows(), {});
   tangent_places.clear();
   others.assign(n_rows(), {});
@@ -143,15 +169,12 @@ void Contact<dim>::make_tangents(const Field                      &positions,
       first += slaves.size();
       if (!chosen[p].parameters.has_friction())
         continue;
-      const auto of_pair =
-        frictions_at<dim>(chosen[p], slaves, placed.unmoved().reference_positions());
       const TangentFrames<dim> maker(geometry(p, positions, held));
       const auto               rely_on_master = maker.rely_on_master(slaves, &paired[begin]);
       for (unsigned int i = 0; i < slaves.size(); ++i)
         {
           const unsigned int row = begin + i;
-          frictions[row]         = of_pair[i];
-          if (!of_pair[i].resists())
+          if (!frictions[row].resists())
             continue;
           unsigned int n_tangents;
           std::tie(frames[row], n_tangents) =

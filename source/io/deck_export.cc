@@ -144,7 +144,7 @@ private:
   void write_contacts()
   {
     unsigned int n = 0;
-    for (const auto &pair : solver.contact(0).pairs())
+    for (const auto &pair : solver.contact(0).named_pairs())
       {
         ++n;
         if (pair.obstacle)
@@ -171,7 +171,7 @@ private:
       }
   }
 
-  void write_friction(const contact::Pair &pair, const double stiffness)
+  void write_friction(const contact::NamedPair &pair, const double stiffness)
   {
     if (!pair.parameters.has_friction())
       return;

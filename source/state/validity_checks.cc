@@ -189,7 +189,7 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
 {
   for (unsigned int p = 0; p < pairs.size(); ++p)
     // Gaps are replicated like all contact data, so all ranks throw, or none.
-    if (gaps[p].overlap > absurd_overlap && !pairs[p].parameters.interference)
+    if (gaps[p].overlap > absurd_overlap)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
                       line("the sides overlap initially" + place + " by", -gaps[p].least,
                            of_a_face(gaps[p]),
@@ -202,7 +202,7 @@ std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>      
 {
   std::vector<std::string> lines;
   for (unsigned int p = 0; p < pairs.size(); ++p)
-    if (gaps[p].overlap > large_overlap && !pairs[p].parameters.interference)
+    if (gaps[p].overlap > large_overlap)
       lines.push_back(line("'" + pairs[p].name() + "' overlaps initially" + place + " by",
                            -gaps[p].least, of_a_face(gaps[p]),
                            ": if the overlap is intended, set 'Interference' of the pair"));

@@ -9,7 +9,9 @@
 #include <snug/contact/tangent_row.h>
 #include <snug/geometry/formula.h>
 
+#include <algorithm>
 #include <limits>
+#include <memory>
 
 namespace snug::contact {
 /// Place of a contact row: its pair, its slave node and its named pair.
@@ -23,23 +25,25 @@ struct RowPlace
 /// A pair as the scene names it, with the rows that belong to it.
 struct NamedPair
 {
+  Side                              slave, master; ///< after the choice of the slave
   std::string                       slave_name, master_name; ///< after the choice of the slave
   std::optional<ObstacleParameters> obstacle;
   /// ascending row indices with shares: the parts of the force and of the area of each row that
   /// belong to this pair
   std::vector<std::pair<unsigned int, double>> rows;
-  bool master_is_first; ///< the scene names the master side first
+  bool           master_is_first; ///< the scene names the master side first
+  PairParameters parameters;      ///< entries of the scene
 
   /// Return "slave: master".
   std::string name() const { return slave_name + ": " + master_name; }
 };
 
-/// Law of the friction of a contact row, with its formulas evaluated at the slave node.
+/// Law of the friction of a contact row, with its formulas evaluated at the slave node. Rows that
+/// belong to several pairs have the mean of their laws, weighted by their shares.
 struct RowFriction
 {
-  Friction kind        = Friction::none;
-  double   coefficient = 0.; ///< of Coulomb: tangential over normal force
-  double   bound       = 0.; ///< of Tresca: tangential traction [force/length^2]
+  double coefficient = 0.; ///< of Coulomb: tangential over normal force
+  double bound       = 0.; ///< of Tresca: tangential traction [force/length^2]
 
   /// Return whether there may be tangential forces.
   bool resists() const { return coefficient > 0. || bound > 0.; }
@@ -74,15 +78,18 @@ struct PairedGaps
 {
   double least   = std::numeric_limits<double>::infinity();  ///< minimum; below 0: overlap [length]
   double largest = -std::numeric_limits<double>::infinity(); ///< maximum [length]
-  double overlap = 0.; ///< maximum overlap over the size of the largest face at the slave node
+  /// maximum overlap over the size of the largest face at the slave node, of pairs without
+  /// intended overlap
+  double overlap = 0.;
 };
 
 /**
  * This class holds all contact rows of a scene in one position of the bodies. Positions,
  * velocities, displacements, held directions and coefficients of rows are in the frames of the
  * bodies, see PlacedSurface; normals of rows are in space. There is one group of rows per joined
- * pair (JoinedPair), in the order of pairs(). The gap formula of a pair, evaluated at the slave
- * nodes, is added to the gaps of its group. If several groups connect a slave node to the same
+ * pair (JoinedPair), in the order of pairs(). The gap formula of a pair of the scene, evaluated at
+ * the slave nodes, is added to the gaps of its rows; rows that belong to several pairs have the
+ * mean of their formulas, weighted by their shares. If several groups connect a slave node to the same
  * surface, the node has a row only in the group whose side faces that surface best. The constructor
  * and pair() pair nodes with faces, and the pairing is frozen between these calls. See RowGroup for
  * the meaning of the functions.
@@ -211,13 +218,14 @@ public:
   /// @}
 
 private:
-  /// Rows of a pair and the formula that is added to their gaps, if the pair has one.
   struct Group
   {
-    std::unique_ptr<RowGroup<dim>>          rows;
-    std::unique_ptr<geometry::Formula<dim>> offset;
-    double step; ///< step of the difference quotients of offset [length]
+    std::unique_ptr<RowGroup<dim>> rows;
+    double step; ///< step of the difference quotients of gap formulas [length]
   };
+
+  /// Named pairs with shares of a row.
+  using Shares = std::vector<std::pair<unsigned int, double>>;
 
   const PlacedSurface<dim>         placed;
   const mesh::Surface<dim>        &surface; ///< in space
@@ -229,6 +237,9 @@ private:
   std::vector<Matching>            matching_of; ///< one per pair
   std::vector<Group>               groups;      ///< one per pair
   std::vector<RowPlace>            row_places;
+  /// one per named pair; nullptr: no formula
+  std::vector<std::shared_ptr<const geometry::Formula<dim>>> gap_formulas;
+  std::vector<Shares>                 gap_shares;   ///< one per row; empty: no formula
   std::vector<DependentMultiplier> shared;
   std::vector<Row<dim>>            paired_rows;    ///< of mortar pairs, at the pairing; else empty
   Field                            paired_offsets; ///< one per row, at the pairing
@@ -254,6 +265,7 @@ private:
   void share_rows(const Field &positions, const faces::HeldDirections<dim> &held);
   void collect_dependent_multipliers();
   void measure_pairing(const Field &positions, const std::vector<Row<dim>> &paired);
+  void make_frictions();
   void make_tangents(const Field                      &positions,
                      const faces::HeldDirections<dim> &held,
                      const std::vector<Row<dim>>      &paired);
@@ -265,6 +277,32 @@ private:
   std::vector<RowSlopes<dim>> energy_slopes(const Field               &moved,
                                             const std::vector<double> &forces) const;
   Group                       make_group(const PairGeometry<dim> &geometry) const;
+  /// Return the named pairs of each row with their shares. Pairs with equal entries, by their
+  /// @p key, count as one pair. If all are equal, the share is exactly 1.
+  template <typename Key>
+  std::vector<Shares> shares_of_rows(const Key &key) const
+  {
+    std::vector<Shares> result(n_rows());
+    for (unsigned int pair = 0; pair < named.size(); ++pair)
+      for (const auto &[row, share] : named[pair].rows)
+        {
+          auto      &shares   = result[row];
+          const auto is_equal = [&](const auto &of) {
+            return key(named[of.first].parameters) == key(named[pair].parameters);
+          };
+          const auto equal = std::find_if(shares.begin(), shares.end(), is_equal);
+          if (equal == shares.end())
+            shares.emplace_back(pair, share);
+          else
+            equal->second += share;
+        }
+    for (Shares &shares : result)
+      if (shares.size() == 1)
+        shares.front().second = 1.;
+    return result;
+  }
+  double                 gap_offset(unsigned int row, const Field &positions) const;
+  dealii::Tensor<1, dim> gap_offset_gradient(unsigned int row, const Field &positions) const;
 };
 } // namespace snug::contact
 

@@ -14,8 +14,9 @@ constexpr double smooth_meeting = 30.;
 /**
  * Pairs of the scene that form one contact. Their slave sides are the same boundaries, or share
  * nodes and meet smoothly (smooth_meeting). Their masters are the same obstacle or belong to one
- * smooth surface. Their parameters are equal. The contact rows are those of the union of the sides,
- * as if all boundaries of a side had one name.
+ * smooth surface. The contact rows are those of the union of the sides, as if all boundaries of a
+ * side had one name. Where the entries of the pairs differ, the union has all of their rows
+ * (joined_parameters()), and gaps and friction are those of each pair (NamedPair::parameters).
  */
 struct JoinedPair
 {
@@ -37,10 +38,15 @@ struct JoinedPair
   void         swap_slave_master();
 };
 
+/// Return the parameters of the union of two pairs: mortar rows if one of them has these, the fixed
+/// slave side if one has it, the larger search distance and angle, and friction if one has it.
+PairParameters joined_parameters(const PairParameters &a, const PairParameters &b);
+
 /// Join the pairs of a scene at the given positions. A side with several boundaries stands for all
 /// pairs of one boundary of each side. The sides of a pair whose slave is not chosen yet
 /// (Slave::finer) are exchanged if the pair can be joined with an earlier pair only in this way.
-/// @throws TangledMesh if faces have no normal.
+/// @throws TangledMesh if faces have no normal, InputError if two pairs with different entries bring
+///   together the same boundaries.
 template <int dim>
 std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &surface,
                                    const faces::FaceShape<dim>              &shape,

@@ -1,6 +1,7 @@
 #ifndef snug_contact_point_gaps_h
 #define snug_contact_point_gaps_h
 
+#include <snug/contact/joined_pairs.h>
 #include <snug/contact/obstacle.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/contact/projection.h>
@@ -15,7 +16,7 @@ struct PointGap
   dealii::Tensor<1, dim> normal;          ///< n, unit vector into the master
   double                 gap = 0.;        ///< gap between the true surfaces [length]
   Weights                masters;         ///< w_k; empty for obstacles
-  Boundary               master_boundary; ///< {} for obstacles
+  unsigned int           pair;            ///< index of the pair of the scene
 };
 
 /// This class computes the gaps of a pair at any points of its slave side. Nodal and obstacle
@@ -28,26 +29,33 @@ class PointGaps
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// Prepare the gaps of @p pair. The surface, the shape, the positions and the held directions
+  using Formulas = std::vector<std::shared_ptr<const geometry::Formula<dim>>>;
+
+  /// Prepare the gaps of @p pair, which is @p joined, with the gap @p formulas of the pairs of the
+  /// scene. The surface, the shape, the positions, the held directions and the last two arguments
   /// must outlive this object.
-  explicit PointGaps(const PairGeometry<dim> &pair);
+  PointGaps(const PairGeometry<dim> &pair, const JoinedPair &joined, const Formulas &formulas);
   ~PointGaps();
 
-  /// Return the gap at the point @p x of the slave's true surface, where the nodes of the slave
-  /// face have the weights @p slave. Return nothing beyond the end of the master side.
-  std::optional<PointGap<dim>> at(const dealii::Tensor<1, dim> &x, const Weights &slave) const;
+  /// Return the gap at the point @p x of the true surface of the slave @p boundary, where the nodes
+  /// of the slave face have the weights @p slave. Return nothing beyond the end of the master side.
+  std::optional<PointGap<dim>>
+  at(const dealii::Tensor<1, dim> &x, const Weights &slave, const Boundary &boundary) const;
 
-  /// Return the part of the gap at @p x that is given by formulas [length]: `Gap`, and the distance
-  /// to the obstacle, if the pair has one.
-  double given(const dealii::Tensor<1, dim> &x) const;
+  /// Return the part of the gap at @p x of a slave @p boundary that is given by formulas [length]:
+  /// `Gap`, and the distance to the obstacle, if the pair has one.
+  double given(const dealii::Tensor<1, dim> &x, const Boundary &boundary) const;
 
 private:
   std::optional<PointProjection<dim>> project(const dealii::Tensor<1, dim> &x,
                                               const dealii::Tensor<1, dim> &slave_normal) const;
   dealii::Tensor<1, dim>              place(const PointProjection<dim> &projection) const;
 
+  double offset(unsigned int pair, const dealii::Tensor<1, dim> &x) const;
+
   const Field                            &positions;
-  std::unique_ptr<geometry::Formula<dim>> offset;
+  const JoinedPair                       &joined;
+  const Formulas                         &formulas;
   std::unique_ptr<Obstacle<dim>>          obstacle;
   dealii::Tensor<1, dim>                  shift; ///< displacement of the obstacle
   const mesh::Surface<dim>               &surface;

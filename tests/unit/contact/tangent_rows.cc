@@ -311,7 +311,6 @@ TEST(TangentRows, FrictionBelongsToTheReference)
   EXPECT_EQ(contact.tangents().size(), 4u);
   for (unsigned int i = 0; i < contact.n_rows(); ++i)
     {
-      EXPECT_EQ(contact.friction(i).kind, Friction::Coulomb);
       EXPECT_NEAR(contact.friction(i).coefficient, 0.2 * reference[contact.places()[i].slave][0],
                   1e-15);
       EXPECT_EQ(contact.friction(i).bound, 0.);
@@ -342,7 +341,7 @@ TEST(TangentRows, EntriesMustBeFormulas)
   EXPECT_THROW(parameters.check(section), InputError);
 }
 
-TEST(TangentRows, PairsWithOtherFrictionAreNotJoined)
+TEST(TangentRows, OneFrictionForThePairsOfTheSameFaces)
 {
   const RoughBoxes<2> scene(RoughBoxes<2>::boxes(4, 4), 1);
   Pair                other = scene.rough;
@@ -352,7 +351,6 @@ TEST(TangentRows, PairsWithOtherFrictionAreNotJoined)
       .size();
   };
   EXPECT_EQ(join(), 1u);
-  // The rows of another contact would be the same, so it is left without any.
   other.parameters.friction_coefficient = "0.4";
   EXPECT_THROW(join(), InputError);
 }
