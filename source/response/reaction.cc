@@ -45,6 +45,15 @@ public:
     return dealii::Utilities::MPI::sum(sum, solver.context().communicator());
   }
 
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
+                                        const state::ContactState<dim> &state) const override
+  {
+    FieldDerivative<dim> result;
+    result.motion     = torn(solver, nodal_motion(solver, state));
+    result.has_motion = true;
+    return result;
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
