@@ -91,10 +91,14 @@ public:
                              const response::FieldDerivative<dim> &derivative,
                              const LoadedDisplacement<dim>        &u) const
   {
+    const auto at_nodes = [&](const feti::PrimalVectors &field, const unsigned int of) {
+      return mesh::owners_values(solver.mesh(), state::nodal_values(solver, field, of));
+    };
     LoadedDisplacement<dim> z;
     z.displacement =
-      sum(mesh::owners_values(solver.mesh(), state::nodal_values(solver, continuous, column[j])),
-          -derivative.stiffness, u.displacement);
+      sum(at_nodes(continuous, column[j]), -derivative.stiffness, u.displacement);
+    if (derivative.has_motion)
+      z.displacement = sum(z.displacement, -1., at_nodes(derivative.motion, 0));
     const auto &gluing  = solver.gluing(load_case);
     const auto &contact = solver.contact(load_case);
     auto        forces  = gluing.gather_contact(dual.column(column[j]));

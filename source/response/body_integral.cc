@@ -35,6 +35,13 @@ public:
   }
 
   /// Return the derivatives. The members u and forces stay empty, which stands for zero.
+  /// J does not depend on u.
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim> & /*solver*/,
+                                        const state::ContactState<dim> & /*state*/) const override
+  {
+    return {};
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {

@@ -117,6 +117,13 @@ public:
     return 1. - of.scale * std::pow(of.sum, 1. / p);
   }
 
+  /// J does not depend on u.
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim> & /*solver*/,
+                                        const state::ContactState<dim> & /*state*/) const override
+  {
+    return {};
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {

@@ -80,6 +80,13 @@ public:
     return measured_of(solver, load_case, rows);
   }
 
+  /// J depends on u through the contact forces alone.
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim> & /*solver*/,
+                                        const state::ContactState<dim> & /*state*/) const override
+  {
+    return {};
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {

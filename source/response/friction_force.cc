@@ -43,6 +43,13 @@ public:
     return sum;
   }
 
+  /// J depends on u through the contact forces alone.
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim> & /*solver*/,
+                                        const state::ContactState<dim> & /*state*/) const override
+  {
+    return {};
+  }
+
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {

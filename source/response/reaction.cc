@@ -6,13 +6,17 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace snug::response {
 namespace {
 /**
- * The force or the moment that supports apply to the nodes of a boundary. The nodal forces
- * r = K u - f + B_c' lambda, with the contact rows B_c, are zero at free nodes. With the virtual
- * motion v of the nodes, v = e or v = e x (x - p), and v = 0 at all other nodes,
- * J = v . r = a(u, v) - f(v) + sum_i lambda_i c_i . v.
+ * The force or the moment that the supports and springs of a boundary apply to its nodes. The nodal
+ * forces r = K u - f + B_c' lambda, with the contact rows B_c, are zero at free nodes. With the
+ * virtual motion v of the nodes, v = P e or v = P (e x (x - p)), and v = 0 at all other nodes,
+ * J = v . r = a(u, v) - f(v) + sum_i lambda_i c_i . v. P projects to the directions that the
+ * supports of this boundary hold (DirichletConstraints::reaction_directions()), because nodes at an
+ * edge are also held by those of other boundaries. It is the identity on boundaries with springs.
  */
 template <int dim>
 class SupportReaction : public Response<dim>
@@ -43,6 +47,15 @@ public:
     for (unsigned int node = 0; node < r.size(); ++node)
       sum += v[node] * r[node];
     return dealii::Utilities::MPI::sum(sum, solver.context().communicator());
+  }
+
+  FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
+                                        const state::ContactState<dim> &state) const override
+  {
+    FieldDerivative<dim> result;
+    result.motion     = torn(solver, nodal_motion(solver, state));
+    result.has_motion = true;
+    return result;
   }
 
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
@@ -112,12 +125,16 @@ private:
     return to_space.vector_back(unit_vector<dim>(parameters));
   }
 
-  /// Return which local nodes lie on the boundary.
-  std::vector<bool> on_boundary(const state::StateSolver<dim> &solver) const
+  /// Return P of the local nodes.
+  std::vector<dealii::Tensor<2, dim>> directions(const state::StateSolver<dim> &solver) const
   {
     const auto               boundary = find_boundary(solver, parameters);
     const mesh::Surface<dim> surface(solver.mesh(), {boundary});
-    std::vector<bool>        on_faces(surface.n_nodes(), false), result;
+    std::vector<bool>        on_faces(surface.n_nodes(), false);
+    const bool               has_springs =
+      std::any_of(solver.model().springs.begin(), solver.model().springs.end(),
+                  [&](const auto &spring) { return spring.face == parameters.face; });
+    std::vector<dealii::Tensor<2, dim>> result(solver.mesh().n_local_nodes());
     for (const auto &face : surface.faces())
       for (const unsigned int node : face.nodes)
         {
@@ -129,7 +146,13 @@ private:
     for (unsigned int node = 0; node < solver.mesh().n_local_nodes(); ++node)
       {
         const unsigned int found = surface.find(solver.mesh().global_node(node));
-        result.push_back(found < surface.n_nodes() && on_faces[found]);
+        if (found == surface.n_nodes() || !on_faces[found])
+          continue;
+        if (has_springs)
+          result[node] = dealii::unit_symmetric_tensor<dim>();
+        else
+          result[node] =
+            solver.held().reaction_directions(solver.mesh().global_node(node), parameters.face);
       }
     return result;
   }
@@ -138,12 +161,11 @@ private:
   mesh::Field<dim> nodal_motion(const state::StateSolver<dim>  &solver,
                                 const state::ContactState<dim> &state) const
   {
-    const auto       on_face  = on_boundary(solver);
+    const auto       P        = directions(solver);
     const auto       to_space = motion_of_body(solver, state);
-    mesh::Field<dim> v(on_face.size());
+    mesh::Field<dim> v(P.size());
     for (unsigned int node = 0; node < v.size(); ++node)
-      if (on_face[node])
-        v[node] = motion_at(to_space, state.positions[node]);
+      v[node] = P[node] * motion_at(to_space, state.positions[node]);
     return v;
   }
 
@@ -202,13 +224,12 @@ private:
                           const state::ContactState<dim> &state,
                           mesh::Field<dim>               &gradient) const
   {
-    const auto on_face  = on_boundary(solver);
+    const auto P        = directions(solver);
     const auto to_space = motion_of_body(solver, state);
     const auto r        = nodal_forces(solver, state);
     for (unsigned int node = 0; node < r.size(); ++node)
-      if (on_face[node])
-        gradient[node] -=
-          to_space.vector_back(elasticity::turned(axis(), to_space.vector(r[node])));
+      gradient[node] -=
+        to_space.vector_back(elasticity::turned(axis(), to_space.vector(P[node] * r[node])));
   }
 };
 } // namespace

@@ -358,6 +358,28 @@ DirichletConstraints<dim>::forces(const Field                            &positi
   return result;
 }
 
+template <int dim>
+dealii::Tensor<2, dim>
+DirichletConstraints<dim>::reaction_directions(const unsigned int global_node,
+                                               const std::string &face) const
+{
+  const unsigned int held_node = find(global_node);
+  if (held_node == n_nodes())
+    return {};
+  const std::vector<Hold> &holds      = nodes[held_node].holds;
+  const auto               has_normal = [&](const Hold &hold) {
+    return hold.component == Support<dim>::normal;
+  };
+  const auto             first_normal = std::find_if(holds.begin(), holds.end(), has_normal);
+  dealii::Tensor<2, dim> of_axes, of_others;
+  for (const Hold &hold : holds)
+    if (!has_normal(hold))
+      (hold.face == face ? of_axes : of_others)[hold.component][hold.component] = 1.;
+  if (first_normal != holds.end() && first_normal->face == face)
+    return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
+  return of_axes;
+}
+
 template class DirichletConstraints<2>;
 template class DirichletConstraints<3>;
 } // namespace snug::supports

@@ -34,7 +34,7 @@ struct Partials
 
 /**
  * dJ/du as a functional of fields v. Partials::u contains the values of the functional for the
- * shape functions of the nodes. The functional is stiffness a(u, v) + load f(v) +
+ * shape functions of the nodes. The functional is stiffness a(u, v) + a(motion, v) + load f(v) +
  * int traction . v dA + int stress : eps(v) dV. J is quadratic in u with the same stiffness,
  * J'' (v, v) = stiffness a(v, v).
  */
@@ -42,6 +42,9 @@ template <int dim>
 struct FieldDerivative
 {
   double stiffness = 0., load = 0.;
+  /// virtual motion of the nodes, per subdomain of this rank
+  feti::PrimalVectors motion     = {};
+  bool                has_motion = false;
   /// traction as a function of the unit outward normal and the point of one boundary
   /// [response / length^dim]
   std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &normal,
@@ -97,12 +100,10 @@ public:
   /// response. Collective.
   virtual void check(const state::StateSolver<dim> & /*solver*/) const {}
 
-  /// Return dJ/du between the nodes; zero for point forces. Collective.
-  virtual FieldDerivative<dim> field_derivative(const state::StateSolver<dim> & /*solver*/,
-                                                const state::ContactState<dim> & /*state*/) const
-  {
-    return {};
-  }
+  /// Return dJ/du between the nodes, from which the error of J is estimated: {} if J does not depend
+  /// on u, or only at points. Collective.
+  virtual FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
+                                                const state::ContactState<dim> &state) const = 0;
 
   /// Return J of pressures given at places other than the slave nodes, one set of rows per
   /// pair. Return nothing if J is not a function of the pressures.

@@ -68,6 +68,13 @@ public:
                            const std::vector<std::vector<double>> &reactions,
                            Field                                  &gradient) const;
 
+  /// Return the projection to the directions of a node in which its reaction is that of the support
+  /// of @p face ("body.boundary"): zero if that support does not hold the node, otherwise all
+  /// directions but the axes that supports of other faces hold. If several faces hold normals, the
+  /// first one has the reaction.
+  dealii::Tensor<2, dim> reaction_directions(unsigned int       global_node,
+                                             const std::string &face) const;
+
   /// Force of a support on a node.
   struct Force
   {

@@ -39,6 +39,13 @@ public:
     return sum;
   }
 
+  response::FieldDerivative<dim>
+  field_derivative(const state::StateSolver<dim> & /*solver*/,
+                   const state::ContactState<dim> & /*state*/) const override
+  {
+    return {}; // the probe depends on u at points only
+  }
+
   response::Partials<dim> partials(const state::StateSolver<dim>  &solver,
                                    const state::ContactState<dim> &state) const override
   {
