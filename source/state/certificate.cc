@@ -116,11 +116,12 @@ double largest_load_product(const feti::LoadedProblem &feti)
   return largest;
 }
 
-/// Set w_i to 0 where it is round-off of B u - g. Rows of B have lengths of about one, and the
-/// coarse problem spreads round-off over all rows.
+/// Set w_i to 0 where it is round-off of B u - g, and lambda_i where it moves its row by as little.
+/// Rows of B have lengths of about one, and the coarse problem spreads round-off over all rows.
 void set_round_off_to_zero(const feti::LoadedProblem &feti,
                            const feti::PrimalVectors &u,
-                           qp::MultiVector           &w)
+                           qp::MultiVector           &w,
+                           qp::MultiVector           &lambda)
 {
   double largest[2] = {0., 0.}; // |u|, |g|
   for (const auto &part : u)
@@ -129,11 +130,17 @@ void set_round_off_to_zero(const feti::LoadedProblem &feti,
   for (unsigned int i = 0; i < w.n_rows(); ++i)
     largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
+  const double length = round_off * (largest[0] + largest[1]);
   for (unsigned int i = 0; i < w.n_rows(); ++i)
-    // u may be far larger than the lengths F_ii lambda_i that w is compared with later, for example
-    // where prescribed displacements move a body.
-    if (std::abs(w(i)) <= round_off * (largest[0] + largest[1]))
-      w(i) = 0.;
+    {
+      // u may be far larger than the lengths F_ii lambda_i that w is compared with later, for
+      // example where prescribed displacements move a body.
+      if (std::abs(w(i)) <= length)
+        w(i) = 0.;
+      // So may u and g where a motion just closes a gap, and all forces are round-off.
+      if (feti.diagonal()[i] * std::abs(lambda(i)) <= length)
+        lambda(i) = 0.;
+    }
 }
 
 /// Set the errors of friction. @p length is the length by which forces deform the bodies.
@@ -186,14 +193,15 @@ double Certificate::worst() const
 }
 
 Certificate certify(const feti::LoadedProblem &feti,
-                    const qp::MultiVector     &lambda,
+                    const qp::MultiVector     &all_lambda,
                     const feti::PrimalVectors &u)
 {
   auto w = feti.linearization().multiply_B(u);
   w.add(-1., feti.g());
   // The length by which a spring is stretched is D lambda.
-  feti.linearization().add_compliance(-1., lambda, w);
-  set_round_off_to_zero(feti, u, w);
+  feti.linearization().add_compliance(-1., all_lambda, w);
+  qp::MultiVector lambda = all_lambda;
+  set_round_off_to_zero(feti, u, w, lambda);
   // maxima of continuity, penetration, negative and positive contact force, and F_ii |lambda_i|
   double largest[5] = {0., 0., 0., 0., 0.};
   double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
@@ -229,7 +237,7 @@ Certificate certify(const feti::LoadedProblem &feti,
   const double size =
     std::max(largest_product(feti, lambda, largest[4]), largest_load_product(feti));
   Certificate certificate;
-  certificate.equilibrium       = equilibrium_error(feti, lambda, u);
+  certificate.equilibrium       = equilibrium_error(feti, all_lambda, u);
   certificate.continuity        = relative(largest[0], size);
   certificate.penetration       = relative(largest[1], size);
   certificate.negative_pressure = relative(largest[2], largest[3]);

@@ -102,6 +102,7 @@ def run(snug, directory, scene, ranks=1):
     if status != 0:
         raise RuntimeError(f"status {status}: {said.strip()[-300:]}")
     with open(folder / "out" / "contact-0000.csv", encoding="utf-8") as file:
-        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+        rows = [{k: float(v) for k, v in row.items() if k != "friction"}
+                for row in csv.DictReader(file)]
     summary = json.loads((folder / "out" / "summary.json").read_text())
     return summary, sorted(rows, key=lambda row: [round(row[c], 6) for c in "xyz" if c in row])
