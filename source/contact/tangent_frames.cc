@@ -163,46 +163,30 @@ std::vector<unsigned int> TangentFrames<dim>::nodes_at_foot(const unsigned int s
   return without_hanging(result, pair.surface);
 }
 
-/// Add the part of the couple on one side, which acts on the nodes of the row on this side. Where
-/// these do not spread in all tangential directions, as at nodes that match, it acts on the nodes
-/// of the faces around the node with the largest coefficient.
+/// Add the part of the couple on one side: patches around the nodes of the row on this side.
 template <int dim>
 void TangentFrames<dim>::add_couple(const Row<dim>     &row,
                                     const FacesAtNodes &side,
                                     TangentFrame<dim>  &frame) const
 {
-  CoupleNodes  couple;
-  unsigned int largest_node = 0;
-  double       largest      = 0.;
+  std::vector<CouplePatch> patches;
   for (const auto &[node, c] : row.coefficients)
-    if (const double factor = std::abs(c * row.normal);
-        !side[node].empty() && factor > least_shape_function)
-      {
-        couple.nodes.push_back(node);
-        // Of equal coefficients, up to round-off, the first one counts.
-        if (factor > largest * (1. + 1e-6))
-          {
-            largest      = factor;
-            largest_node = node;
-          }
-      }
-  const auto spread = [&]() {
-    return tangential_spread(row.normal, frame.reference, couple.nodes, pair.positions);
-  };
-  couple.spread = spread();
-  if (couple.spread < dim - 1 && largest > 0.)
     {
+      if (side[node].empty() || std::abs(c * row.normal) <= least_shape_function)
+        continue;
       std::vector<unsigned int> around;
-      for (const unsigned int face : side[largest_node])
+      for (const unsigned int face : side[node])
         {
           const auto &nodes = pair.surface.faces()[face].nodes;
           around.insert(around.end(), nodes.begin(), nodes.end());
         }
-      couple.nodes  = without_hanging(around, pair.surface);
-      couple.spread = spread();
+      CouplePatch patch{node, without_hanging(around, pair.surface)};
+      patch.spread = tangential_spread(row.normal, frame.reference, patch.nodes, pair.positions);
+      if (patch.spread > 0)
+        patches.push_back(std::move(patch));
     }
-  if (couple.spread > 0)
-    frame.couple.push_back(std::move(couple));
+  if (!patches.empty())
+    frame.couple.push_back(std::move(patches));
 }
 
 /// Return a matrix that is zero in the directions that the slave node and the nodes of the master

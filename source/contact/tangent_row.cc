@@ -1,3 +1,4 @@
+#include <snug/base/assertions.h>
 #include <snug/contact/tangent_row.h>
 
 #include <algorithm>
@@ -61,6 +62,40 @@ Vector<dim, Number> &coefficient_of(const unsigned int node, Row<dim, Number> &r
     place = row.coefficients.insert(place, {node, Vector<dim, Number>()});
   return place->second;
 }
+
+/// Return f_b of @p node, which must have a coefficient.
+template <int dim, typename Number>
+Number factor_of(const unsigned int node, const Row<dim, Number> &row)
+{
+  const auto place =
+    std::lower_bound(row.coefficients.begin(), row.coefficients.end(), node,
+                     [](const auto &entry, unsigned int n) { return entry.first < n; });
+  SNUG_ASSERT(place != row.coefficients.end() && place->first == node,
+              "a couple belongs to another row");
+  return place->second * row.normal;
+}
+
+/// Add the couple on the nodes of a patch that has the moment of two forces along @p t at the
+/// @p distance along the normal of @p row.
+template <int dim, typename Number>
+void add_couple(const CouplePatch                    &patch,
+                const Vector<dim, Number>            &t,
+                const Number                         &distance,
+                const faces::PointField<dim, Number> &x,
+                Row<dim, Number>                     &row)
+{
+  const Spread<dim, Number> spread(patch.nodes, t, across<dim>(row.normal, t), x);
+  // With s = n x t, y = (y.t t + y.s s) / |t|^2, and H has the entries tt, ts and ss over |t|^2
+  // in the basis of the unit vectors. The factors of y.t and y.s in beta are:
+  const bool   on_line = patch.spread == 1;
+  const Number by_t = on_line ? spread.tt : spread.ss, by_s = on_line ? spread.ts : -spread.ts;
+  const Number divisor = on_line ? (spread.tt + spread.ss) * (spread.tt + spread.ss)
+                                 : spread.tt * spread.ss - spread.ts * spread.ts;
+  const Number factor  = distance * (t * t) / divisor;
+  for (unsigned int k = 0; k < patch.nodes.size(); ++k)
+    coefficient_of(patch.nodes[k], row) +=
+      (factor * (by_t * spread.along_t[k] + by_s * spread.along_s[k])) * row.normal;
+}
 } // namespace
 
 template <int dim, typename Number>
@@ -96,19 +131,14 @@ Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
     }
   result.gap    = t * frame.displacement;
   result.normal = row.normal;
-  for (const auto &[nodes, directions] : frame.couple)
+  for (const auto &patches : frame.couple)
     {
-      const Spread<dim, Number> spread(nodes, t, across<dim>(row.normal, t), x);
-      // With s = n x t, y = (y.t t + y.s s) / |t|^2, and H has the entries tt, ts and ss over |t|^2
-      // in the basis of the unit vectors. The factors of y.t and y.s in beta are:
-      const bool   on_line = directions == 1;
-      const Number by_t = on_line ? spread.tt : spread.ss, by_s = on_line ? spread.ts : -spread.ts;
-      const Number divisor = on_line ? (spread.tt + spread.ss) * (spread.tt + spread.ss)
-                                     : spread.tt * spread.ss - spread.ts * spread.ts;
-      const Number factor  = -g * (t * t) / (double(frame.couple.size()) * divisor);
-      for (unsigned int k = 0; k < nodes.size(); ++k)
-        coefficient_of(nodes[k], result) +=
-          (factor * (by_t * spread.along_t[k] + by_s * spread.along_s[k])) * row.normal;
+      Number weights = 0.;
+      for (const CouplePatch &patch : patches)
+        weights += factor_of(patch.centre, row);
+      for (const CouplePatch &patch : patches)
+        add_couple(patch, t, -g * factor_of(patch.centre, row) / (double(frame.couple.size()) * weights),
+                   x, result);
     }
   return result;
 }

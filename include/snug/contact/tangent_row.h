@@ -5,10 +5,11 @@
 #include <snug/faces/point_field.h>
 
 namespace snug::contact {
-/// The part of the couple of a tangential row that acts on one side.
-struct CoupleNodes
+/// The part of the couple of a tangential row that acts on the faces around a node of the row.
+struct CouplePatch
 {
-  std::vector<unsigned int> nodes; ///< surface nodes
+  unsigned int              centre = 0; ///< the node of the row
+  std::vector<unsigned int> nodes  = {}; ///< surface nodes of the faces around it
   unsigned int spread = 0; ///< number of tangential directions in which these nodes spread, above 0
 };
 
@@ -18,9 +19,9 @@ struct TangentFrame
 {
   /// direction in space from which the tangents in 3D are made
   dealii::Tensor<1, dim> reference;
-  /// the sides on which equal parts of the couple act; empty: no couple
-  std::vector<CoupleNodes> couple;
-  dealii::Tensor<1, dim>   displacement; ///< of the obstacle in space [length]
+  /// patches of each side on which the couple acts; sides without patches are left out
+  std::vector<std::vector<CouplePatch>> couple;
+  dealii::Tensor<1, dim>                displacement; ///< of the obstacle in space [length]
 };
 
 /**
@@ -40,15 +41,20 @@ dealii::Tensor<1, dim, Number> tangent_direction(const dealii::Tensor<1, dim>   
  *   f_a t + beta_a n,  f_a = c_a . n,
  * where c_a are the coefficients of the normal row, and its gap is t . w with the displacement w of
  * an obstacle. The forces f_a t alone would have the moment -g n x t, g = -n . sum_a f_a x_a, so
- * that common rotations of both bodies would slip where there is a gap g. The couple beta_a n on
- * nodes of both sides, which may be others than those of the row, cancels this moment. Each side
- * has half of it, so that opposite rotations of the two sides, as where a gap between mirror images
- * closes, do not slip either:
- *   beta_a = y_a . v,  v = -g/2 H^+ t,  H = sum_a P y_a y_a' P,  P = I - n n',
- * where y_a is the position relative to the mean of the nodes of the side. H^+ is the inverse of H
- * in the tangent plane if the nodes spread in all of its directions. It is H / tr(H)^2, which is
- * the pseudoinverse, if the nodes lie on a line. If the nodes of one side do not spread, the other
- * side has the whole couple.
+ * that common rotations of both bodies would slip where there is a gap g. The couple beta_a n
+ * cancels this moment. Each side has half of it, so that opposite rotations of the two sides, as
+ * where a gap between mirror images closes, do not slip either. On a side it is the sum over the
+ * nodes b of the row, with the weights f_b, of couples on the nodes of the faces around b:
+ *   beta_a = sum_b f_b / (sum f) y_ab . v_b,  v_b = -g/2 H_b^+ t,
+ *   H_b = sum_a P y_ab y_ab' P,  P = I - n n',
+ * where y_ab is the position relative to the mean of the nodes around b. So the rotation that the
+ * row contains is that of a linear fit around each b, interpolated to the place of the row. Fits to
+ * the nodes of the row alone would belong to places beside it: an error of the slip of first order
+ * in the size of the faces, which alternates from row to row, and so does not decrease as a
+ * traction. H^+ is the inverse of H in the tangent plane if the nodes spread in all of its
+ * directions. It is H / tr(H)^2, which is the pseudoinverse, if the nodes lie on a line. Nodes b
+ * around which nodes do not spread have no part. If none is left on a side, the other side has the
+ * whole couple.
  */
 template <int dim, typename Number>
 Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
