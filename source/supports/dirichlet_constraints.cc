@@ -121,7 +121,8 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
         for (const unsigned int node : face.nodes)
           {
             Hold hold{support.name, support.face, support.component, normal ? side_of_face[f] : 0,
-                      std::vector<double>(n_load_cases)};
+                      std::vector<double>(n_load_cases),
+                      std::make_pair(support.body, support.boundary)};
             for (unsigned int c = 0; c < support.values.size(); ++c)
               if (support.values[c])
                 hold.values[c] = support.values[c](dealii::Point<dim>(reference[node]));
@@ -360,8 +361,9 @@ DirichletConstraints<dim>::forces(const Field                            &positi
 
 template <int dim>
 dealii::Tensor<2, dim>
-DirichletConstraints<dim>::reaction_directions(const unsigned int global_node,
-                                               const std::string &face) const
+DirichletConstraints<dim>::reaction_directions(
+  const unsigned int                           global_node,
+  const std::pair<unsigned int, unsigned int> &boundary) const
 {
   const unsigned int held_node = find(global_node);
   if (held_node == n_nodes())
@@ -374,8 +376,8 @@ DirichletConstraints<dim>::reaction_directions(const unsigned int global_node,
   dealii::Tensor<2, dim> of_axes, of_others;
   for (const Hold &hold : holds)
     if (!has_normal(hold))
-      (hold.face == face ? of_axes : of_others)[hold.component][hold.component] = 1.;
-  if (first_normal != holds.end() && first_normal->face == face)
+      (hold.boundary == boundary ? of_axes : of_others)[hold.component][hold.component] = 1.;
+  if (first_normal != holds.end() && first_normal->boundary == boundary)
     return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
   return of_axes;
 }
