@@ -163,7 +163,11 @@ PairParameters joined_parameters(const PairParameters &a, const PairParameters &
                              : std::max(a.search_distance, b.search_distance);
   result.largest_angle   = std::max(a.largest_angle, b.largest_angle);
   if (!a.has_friction())
-    result.friction = b.friction;
+    {
+      result.friction             = b.friction;
+      result.friction_coefficient = b.friction_coefficient;
+      result.friction_bound       = b.friction_bound;
+    }
   return result;
 }
 
