@@ -70,10 +70,10 @@ public:
                            const std::vector<std::vector<double>> &reactions,
                            Field                                  &gradient) const;
 
-  /// Return the projection to the directions of a node in which its reaction is that of the supports
-  /// of a @p boundary (body, boundary): zero if they do not hold the node, otherwise all directions
-  /// but the axes that supports of other boundaries hold. If several boundaries hold normals, the
-  /// first one has the reaction.
+  /// Return the projection to the directions of a node in which its reaction is that of the
+  /// supports of a @p boundary (body, boundary): zero if they do not hold the node, otherwise all
+  /// directions but the axes that supports of other boundaries hold. If several boundaries hold
+  /// normals, the first one has the reaction.
   dealii::Tensor<2, dim>
   reaction_directions(unsigned int                                 global_node,
                       const std::pair<unsigned int, unsigned int> &boundary) const;
