@@ -95,8 +95,7 @@ public:
       return mesh::owners_values(solver.mesh(), state::nodal_values(solver, field, of));
     };
     LoadedDisplacement<dim> z;
-    z.displacement =
-      sum(at_nodes(continuous, column[j]), -derivative.stiffness, u.displacement);
+    z.displacement = sum(at_nodes(continuous, column[j]), -derivative.stiffness, u.displacement);
     if (derivative.has_motion)
       z.displacement = sum(z.displacement, -1., at_nodes(derivative.motion, 0));
     const auto &gluing  = solver.gluing(load_case);

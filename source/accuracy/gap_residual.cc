@@ -68,9 +68,8 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                   area_vector = faces::area_vector(
                     faces::tangents<dim>(on_surface, face.samples, state.positions));
                 }
-              const auto gap =
-                gaps->at(solver.motion(load_case, face.body).point(place), point.shape,
-                         {face.body, face.boundary});
+              const auto gap = gaps->at(solver.motion(load_case, face.body).point(place),
+                                        point.shape, {face.body, face.boundary});
               if (!gap)
                 continue;
               point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();

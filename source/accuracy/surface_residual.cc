@@ -266,7 +266,8 @@ public:
         const auto   found = sampler(
           face,
           [&](const dealii::Tensor<1, dim> &x) {
-            return (is_slave ? given.given(motions[face.body].point(x), {face.body, face.boundary}) : 0.) -
+            return (is_slave ? given.given(motions[face.body].point(x), {face.body, face.boundary})
+                               : 0.) -
                    (is_smooth ? 0. : area * x / area.norm());
           },
           at_nodes);

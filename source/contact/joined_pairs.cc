@@ -35,7 +35,8 @@ void check_entries(const std::vector<Pair> &pairs, const std::vector<JoinedPair:
     for (const auto &b : parts)
       if (a.pair < b.pair && a.slave == b.slave && a.master == b.master &&
           pairs[a.pair].obstacle.has_value() == pairs[b.pair].obstacle.has_value() &&
-          (!pairs[a.pair].obstacle || pairs[a.pair].obstacle->name == pairs[b.pair].obstacle->name) &&
+          (!pairs[a.pair].obstacle ||
+           pairs[a.pair].obstacle->name == pairs[b.pair].obstacle->name) &&
           !are_equal(pairs[a.pair].parameters, pairs[b.pair].parameters))
         throw bad_entry("Contact/Pairs", pairs[b.pair].name(),
                         "brings together the same faces as '" + pairs[a.pair].name() +
@@ -52,6 +53,42 @@ std::vector<JoinedPair::Part> parts_of(const Pair &pair, const unsigned int inde
     else
       for (const Boundary &master : pair.master.boundaries())
         parts.push_back({slave, master, index});
+  return parts;
+}
+
+/// Return the parts of all pairs in their order. Pairs whose slave is not chosen yet are exchanged
+/// if only then one of their parts joins a part of another pair by can_join(a, b).
+template <typename CanJoin>
+std::vector<JoinedPair::Part> parts_that_join(std::vector<Pair> &pairs, const CanJoin &can_join)
+{
+  // Pairs with a fixed slave side come first, because only other pairs can follow them.
+  std::vector<unsigned int> order;
+  for (const bool fixed : {true, false})
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if ((pairs[p].parameters.slave == Slave::first) == fixed)
+        order.push_back(p);
+  std::vector<JoinedPair::Part> parts;
+  for (const unsigned int p : order)
+    {
+      const auto joins = [&](const std::vector<JoinedPair::Part> &own) {
+        return std::any_of(own.begin(), own.end(), [&](const auto &part) {
+          return std::any_of(parts.begin(), parts.end(),
+                             [&](const auto &other) { return can_join(part, other); });
+        });
+      };
+      auto own = parts_of(pairs[p], p);
+      if (!joins(own) && pairs[p].parameters.slave == Slave::finer && !pairs[p].obstacle)
+        {
+          exchange(pairs[p]);
+          if (const auto exchanged = parts_of(pairs[p], p); joins(exchanged))
+            own = exchanged;
+          else
+            exchange(pairs[p]);
+        }
+      parts.insert(parts.end(), own.begin(), own.end());
+    }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto &a, const auto &b) { return a.pair < b.pair; });
   return parts;
 }
 
@@ -163,7 +200,11 @@ PairParameters joined_parameters(const PairParameters &a, const PairParameters &
                              : std::max(a.search_distance, b.search_distance);
   result.largest_angle   = std::max(a.largest_angle, b.largest_angle);
   if (!a.has_friction())
-    result.friction = b.friction;
+    {
+      result.friction             = b.friction;
+      result.friction_coefficient = b.friction_coefficient;
+      result.friction_bound       = b.friction_bound;
+    }
   return result;
 }
 
@@ -189,34 +230,7 @@ std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &sur
     return obstacle ? obstacle->name == other->name
                                    : smooth.surface_of(a.master) == smooth.surface_of(b.master);
   };
-  // Pairs with a fixed slave side come first, because only other pairs can follow them.
-  std::vector<unsigned int> order;
-  for (const bool fixed : {true, false})
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      if ((pairs[p].parameters.slave == Slave::first) == fixed)
-        order.push_back(p);
-  std::vector<JoinedPair::Part> parts;
-  for (const unsigned int p : order)
-    {
-      const auto joins = [&](const std::vector<JoinedPair::Part> &own) {
-        return std::any_of(own.begin(), own.end(), [&](const auto &part) {
-          return std::any_of(parts.begin(), parts.end(),
-                             [&](const auto &other) { return can_join(part, other); });
-        });
-      };
-      auto own = parts_of(pairs[p], p);
-      if (!joins(own) && pairs[p].parameters.slave == Slave::finer && !pairs[p].obstacle)
-        {
-          exchange(pairs[p]);
-          if (const auto exchanged = parts_of(pairs[p], p); joins(exchanged))
-            own = exchanged;
-          else
-            exchange(pairs[p]);
-        }
-      parts.insert(parts.end(), own.begin(), own.end());
-    }
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const auto &a, const auto &b) { return a.pair < b.pair; });
+  const auto parts = parts_that_join(pairs, can_join);
   check_entries(pairs, parts);
   DisjointSets unions(parts.size());
   for (unsigned int i = 0; i < parts.size(); ++i)

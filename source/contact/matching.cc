@@ -24,8 +24,8 @@ double offset_across(const dealii::Tensor<1, dim> &v, const dealii::Tensor<1, di
 template <int dim>
 Matching matching(const PairGeometry<dim> &pair)
 {
-  const auto               &x = pair.positions;
-  const SearchCriteria<dim> criteria(pair);
+  const auto                    &x = pair.positions;
+  const SearchCriteria<dim>      criteria(pair);
   const faces::NodalNormals<dim> of_slave(pair.surface, pair.sides.slave, pair.shape, x,
                                           &pair.held);
   const PairNormals<dim>         normals(pair);

@@ -24,8 +24,8 @@ MortarNormals<dim>::MortarNormals(const PairGeometry<dim> &pair)
       {
         if (visited[node])
           continue;
-        visited[node] = true;
-        const auto &n = values.slave[node];
+        visited[node]            = true;
+        const auto            &n = values.slave[node];
         const Projection<dim>  found{projector.nearest(pair.positions[node], n), node};
         dealii::Tensor<1, dim> of_master;
         for (const auto &[master, weight] : found.masters)
@@ -70,8 +70,7 @@ MortarNormals<dim>::Values::Values(const MortarNormals &of, const Field &positio
   const faces::PointField<dim, double> x(positions), n(pair->values().master),
     m(pair->values().slave);
   for (const auto &projection : of.projections)
-    unit[projection.paired.slave] =
-      projection.at(x, NormalFields<dim, double>{n, m}).normal;
+    unit[projection.paired.slave] = projection.at(x, NormalFields<dim, double>{n, m}).normal;
 }
 
 template <int dim>
@@ -127,10 +126,10 @@ void MortarNormals<dim>::Values::add_transpose(const Field &of_normals, Field &g
 
 template class MortarNormals<2>;
 template class MortarNormals<3>;
-#define SNUG_INSTANTIATE(dim, Number)                                                      \
-  template mortar::MortarFace<dim, Number> MortarNormals<dim>::slave_face(                 \
-    unsigned int, const faces::PointField<dim, Number> &,                                  \
-    const faces::PointField<dim, Number> &) const;
+#define SNUG_INSTANTIATE(dim, Number)                                                             \
+  template mortar::MortarFace<dim, Number> MortarNormals<dim>::slave_face(                        \
+    unsigned int, const faces::PointField<dim, Number> &, const faces::PointField<dim, Number> &) \
+    const;
 SNUG_INSTANTIATE(2, double)
 SNUG_INSTANTIATE(2, faces::Differential<1>)
 SNUG_INSTANTIATE(2, faces::Recorded)

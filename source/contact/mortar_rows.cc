@@ -310,7 +310,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
                                         const Field                       &positions,
                                         const Field                       &of_nodes,
                                         Field                             &gradient,
-                                        Field &normal_gradient) const
+                                        Field                             &normal_gradient) const
 {
   const auto &nodes = surface.faces()[face.face].nodes;
   // Skip open faces, which are most of the slave side, because cutting segments is expensive.
@@ -324,7 +324,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
   if (!counts)
     return;
 
-  auto of_shapes = integrals(face, Points<double>(positions), Points<double>(of_nodes));
+  auto       of_shapes = integrals(face, Points<double>(positions), Points<double>(of_nodes));
   const auto n         = narrow<unsigned int>(nodes.size());
   const auto n_masters = narrow<unsigned int>(face.masters.size());
   {

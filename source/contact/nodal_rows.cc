@@ -30,7 +30,7 @@ dealii::Tensor<1, dim, Number> to_master(const unsigned int                    s
 
 /// Return the unit normal of the master at its point with the weights @p masters, into the master.
 template <int dim>
-dealii::Tensor<1, dim> master_normal(const Weights                            &masters,
+dealii::Tensor<1, dim> master_normal(const Weights                           &masters,
                                      const typename PairNormals<dim>::Fields &normals)
 {
   return unit_normal<dim, double>(
@@ -65,8 +65,7 @@ public:
             nodes.zero_area.push_back(slave);
             continue;
           }
-        projections.emplace_back(surface, pair.shape, projection, pair.positions,
-                                 normals.values());
+        projections.emplace_back(surface, pair.shape, projection, pair.positions, normals.values());
         nodes.with_rows.push_back(slave);
       }
   }

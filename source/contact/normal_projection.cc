@@ -56,10 +56,10 @@ Number shape_function(const typename faces::FaceShape<dim>::Values &values,
 } // namespace
 
 template <int dim>
-NormalProjection<dim>::NormalProjection(const mesh::Surface<dim>    &surface,
-                                        const faces::FaceShape<dim> &shape,
-                                        const Projection<dim>       &projection,
-                                        const Field                 &positions,
+NormalProjection<dim>::NormalProjection(const mesh::Surface<dim>                &surface,
+                                        const faces::FaceShape<dim>             &shape,
+                                        const Projection<dim>                   &projection,
+                                        const Field                             &positions,
                                         const typename PairNormals<dim>::Fields &normals)
   : paired(projection)
   , face(surface.faces()[projection.face])
@@ -78,10 +78,9 @@ NormalProjection<dim>::NormalProjection(const mesh::Surface<dim>    &surface,
       follows   = follows || !reduced.fixed[a];
     }
   if (follows && any_fixed)
-    reduced.rows =
-      transpose(equations(positions, normals.master, normals.slave[projection.slave])
-                  .at(start, positions[projection.slave])
-                  .slope);
+    reduced.rows = transpose(equations(positions, normals.master, normals.slave[projection.slave])
+                               .at(start, positions[projection.slave])
+                               .slope);
   for (unsigned int k = 0; k < face.nodes.size(); ++k)
     {
       bool on_lines = true;
@@ -152,15 +151,15 @@ NormalProjection<dim>::weights(const faces::PointField<dim, Number> &x,
   const auto &of_slave = n.slave.values()[paired.slave];
   const auto  here     = equations(x.values(), n.master.values(), of_slave);
   const auto  point    = solve(x.values(), here);
-  result.off_face  = off_face(point.values.point);
+  result.off_face      = off_face(point.values.point);
   if (differentiate)
     {
       x_of_xi = mean(point.values.value, face.nodes, x);
       v_of_xi = mean(point.values.value, face.nodes, n.master);
       if (of_slave.norm_square() > 0.)
         v_of_xi -= n.slave[paired.slave];
-      dxi     = implicit_derivative(reduced.matrix(point.slope),
-                                    reduced.residual(x_of_xi + point.t * v_of_xi - x[paired.slave]));
+      dxi = implicit_derivative(reduced.matrix(point.slope),
+                                reduced.residual(x_of_xi + point.t * v_of_xi - x[paired.slave]));
       // Only coordinates count from here on.
       dxi[dim - 1] = 0.;
     }

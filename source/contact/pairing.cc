@@ -68,10 +68,10 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
   for (const JoinedPair &of : joined)
     for (const auto &part : of.parts)
       {
-        const Pair &pair = pairs[part.pair];
+        const Pair &pair      = pairs[part.pair];
         const bool  exchanged = !pair.slave.has(part.slave);
-        named[part.pair] = {pair.slave,    pair.master, pair.slave_name, pair.master_name,
-                            pair.obstacle, {},          exchanged,       pair.parameters};
+        named[part.pair]      = {pair.slave,    pair.master, pair.slave_name, pair.master_name,
+                                 pair.obstacle, {},          exchanged,       pair.parameters};
         if (exchanged)
           {
             std::swap(named[part.pair].slave_name, named[part.pair].master_name);

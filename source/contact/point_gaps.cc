@@ -20,7 +20,7 @@ PointGaps<dim>::PointGaps(const PairGeometry<dim> &pair,
       return;
     }
   normals   = std::make_unique<PairNormals<dim>>(pair.surface, pair.shape, sides,
-                                               pair.has_mean_normals(), positions, pair.held);
+                                                 pair.has_mean_normals(), positions, pair.held);
   projector = std::make_unique<Projector<dim>>(pair.surface, sides.master, pair.shape, positions,
                                                normals->values().master);
   if (pair.pair.parameters.method == Method::mortar && !pair.has_mean_normals())
@@ -75,7 +75,7 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
   else
     {
       // The normal of the slave, which PairNormals contain only if they are means.
-      const auto            &of_slave = slave_normals ? slave_normals->normals() : normals->values().slave;
+      const auto &of_slave = slave_normals ? slave_normals->normals() : normals->values().slave;
       for (const auto &[node, weight] : slave)
         result.normal += weight * of_slave[node];
       const auto nearest =
@@ -88,10 +88,10 @@ std::optional<PointGap<dim>> PointGaps<dim>::at(const dealii::Tensor<1, dim> &x,
       // Normalize, because interpolated normals are shorter between nodes, as in mortar rows, and
       // an offset is too large in comparison.
       result.normal /= result.normal.norm();
-      result.gap             = result.normal * (place(*nearest) - x) + nearest->softening;
-      result.masters         = nearest->masters;
-      const auto &face       = surface.faces()[nearest->face];
-      master                 = {face.body, face.boundary};
+      result.gap       = result.normal * (place(*nearest) - x) + nearest->softening;
+      result.masters   = nearest->masters;
+      const auto &face = surface.faces()[nearest->face];
+      master           = {face.body, face.boundary};
     }
   result.pair = joined.pair_of(boundary, master);
   result.gap += offset(result.pair, x);

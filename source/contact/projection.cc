@@ -114,11 +114,10 @@ Projector<dim>::onto(const dealii::Tensor<1, dim> &p, const dealii::Tensor<1, di
 }
 
 template <int dim>
-PointProjection<dim>
-Projector<dim>::projection(const dealii::Tensor<1, dim>           &p,
-                           const dealii::Tensor<1, dim>           &of_slave,
-                           const typename NearestFace<dim>::Found &start,
-                           const double                            excess) const
+PointProjection<dim> Projector<dim>::projection(const dealii::Tensor<1, dim>           &p,
+                                                const dealii::Tensor<1, dim>           &of_slave,
+                                                const typename NearestFace<dim>::Found &start,
+                                                const double excess) const
 {
   const auto normal     = find_normal(p, of_slave, start);
   const auto [face, xi] = normal.value_or(std::make_pair(start.face, start.point.xi));
@@ -126,11 +125,11 @@ Projector<dim>::projection(const dealii::Tensor<1, dim>           &p,
   const auto  masters   = nonzero(shape.at(xi).value, of.nodes);
   // Where the normal begins on the side, as in a symmetry plane, the side does not end, so the
   // softening is 0.
-  const double beyond    = normal ? 0. : std::max(0., excess);
-  const auto   meets     = of.samples.empty()
-                             ? masters
-                             : nonzero(equations(face, of_slave).intersection(xi).values.value,
-                                       of.samples);
+  const double beyond = normal ? 0. : std::max(0., excess);
+  const auto   meets =
+    of.samples.empty()
+        ? masters
+        : nonzero(equations(face, of_slave).intersection(xi).values.value, of.samples);
   const double softening = edge_softening(beyond, mean_face_size(surface, {face}, positions));
   return PointProjection<dim>{face, xi, bool(normal), masters, meets, softening};
 }

@@ -69,7 +69,7 @@ private:
   /// A part without an opposite face goes to the pair of the nearest master face.
   void add_opposite()
   {
-    const auto                          &surface  = geometry.surface;
+    const auto                          &surface = geometry.surface;
     const MortarNormals<dim>             normals(geometry);
     const auto                           at_positions = normals.at(geometry.positions);
     const auto                           opposite     = opposite_faces(geometry, normals);
@@ -97,9 +97,10 @@ private:
           for (const unsigned int master : opposite[i])
             if (const unsigned int pair = pair_at(master); pair != beside)
               {
-                const auto part = mortar::integrate<dim, double>(
-                  quadrature, normals.slave_face(face, x, n),
-                  {mortar::mortar_face(surface, geometry.shape, master, x)});
+                const auto part =
+                  mortar::integrate<dim, double>(quadrature, normals.slave_face(face, x, n),
+                                                 {mortar::mortar_face(surface, geometry.shape,
+                                                                      master, x)});
                 auto &own = of_pairs[pair];
                 own.resize(part.slave.size());
                 for (unsigned int k = 0; k < own.size(); ++k)

@@ -68,8 +68,7 @@ dealii::Tensor<1, dim> largest_column(const dealii::Tensor<2, dim> &matrix)
 } // namespace
 
 template <int dim>
-TangentFrames<dim>::TangentFrames(PairGeometry<dim> geometry)
-  : pair(std::move(geometry))
+TangentFrames<dim>::TangentFrames(PairGeometry<dim> geometry) : pair(std::move(geometry))
 {
   if (pair.pair.obstacle)
     return;
@@ -132,8 +131,7 @@ TangentFrames<dim>::frame(const unsigned int slave,
   const auto tangential = free_directions<dim>({row.normal});
   const auto movable =
     tangential *
-    movable_directions(slave,
-                       relies_on_master ? nodes_at_foot(slave) : std::vector<unsigned int>(),
+    movable_directions(slave, relies_on_master ? nodes_at_foot(slave) : std::vector<unsigned int>(),
                        row.normal) *
     tangential;
   const unsigned int n_tangents = rank_of(movable);

@@ -137,8 +137,9 @@ Row<dim, Number> tangent_row(const Row<dim, Number>               &row,
       for (const CouplePatch &patch : patches)
         weights += factor_of(patch.centre, row);
       for (const CouplePatch &patch : patches)
-        add_couple(patch, t, -g * factor_of(patch.centre, row) / (double(frame.couple.size()) * weights),
-                   x, result);
+        add_couple(patch, t,
+                   -g * factor_of(patch.centre, row) / (double(frame.couple.size()) * weights), x,
+                   result);
     }
   return result;
 }
@@ -167,13 +168,14 @@ unsigned int tangential_spread(const dealii::Tensor<1, dim>             &normal,
                                         const dealii::Tensor<1, dim, Number> &,            \
                                         const TangentFrame<dim> &,                         \
                                         const faces::PointField<dim, Number> &);
-#define SNUG_INSTANTIATE(dim)                                             \
-  SNUG_INSTANTIATE_NUMBER(dim, double)                                    \
-  SNUG_INSTANTIATE_NUMBER(dim, faces::Differential<1>)                    \
-  SNUG_INSTANTIATE_NUMBER(dim, faces::Recorded)                           \
-  template unsigned int tangential_spread(                                \
-    const dealii::Tensor<1, dim> &, const dealii::Tensor<1, dim> &,       \
-    const std::vector<unsigned int> &, const mesh::Surface<dim>::Field &);
+#define SNUG_INSTANTIATE(dim)                                                \
+  SNUG_INSTANTIATE_NUMBER(dim, double)                                       \
+  SNUG_INSTANTIATE_NUMBER(dim, faces::Differential<1>)                       \
+  SNUG_INSTANTIATE_NUMBER(dim, faces::Recorded)                              \
+  template unsigned int tangential_spread(const dealii::Tensor<1, dim> &,    \
+                                          const dealii::Tensor<1, dim> &,    \
+                                          const std::vector<unsigned int> &, \
+                                          const mesh::Surface<dim>::Field &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

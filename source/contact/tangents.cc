@@ -23,8 +23,7 @@ public:
   explicit FrictionFormula(const NamedPair &pair)
     : is_coulomb(pair.parameters.friction == Friction::Coulomb)
     , text(is_coulomb ? pair.parameters.friction_coefficient : pair.parameters.friction_bound)
-    , entry("Pair " + pair.name() + "/" +
-            (is_coulomb ? "Friction coefficient" : "Friction bound"))
+    , entry("Pair " + pair.name() + "/" + (is_coulomb ? "Friction coefficient" : "Friction bound"))
     , formula(entry, text)
   {}
 
@@ -43,9 +42,9 @@ public:
   }
 
 private:
-  const bool                    is_coulomb;
-  const std::string             text, entry;
-  const geometry::Formula<dim>  formula;
+  const bool                   is_coulomb;
+  const std::string            text, entry;
+  const geometry::Formula<dim> formula;
 };
 
 /// Return the rows of each slave node of obstacles with different normals.

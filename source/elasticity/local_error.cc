@@ -139,6 +139,9 @@ LocalError<dim>::LocalError(const LocalSpace<dim> &space,
       dV.push_back(shape.weight * determinant(J) * space.idealization.weight(x));
     }
   find_basis();
+  // All functions are held where supports hold all nodes.
+  if (basis.empty())
+    return;
   const auto         A = matrix();
   const unsigned int n = basis.size(), size = space.size();
   factor.reinit(n);
@@ -335,6 +338,11 @@ void LocalError<dim>::add_residual(const Stresses &sigma, const Nodes &b, LocalR
 template <int dim>
 void LocalError<dim>::solve(LocalResidual &r) const
 {
+  if (basis.empty())
+    {
+      r.assign(space.size(), 0.);
+      return;
+    }
   dealii::Vector<double> y(basis.size());
   for (unsigned int k = 0; k < basis.size(); ++k)
     for (unsigned int c = 0; c < dim; ++c)

@@ -216,11 +216,10 @@ FaceIntegrals<Number> integrate(const SegmentQuadrature<dim>               &quad
 {
   auto result = zero_integrals<dim, Number>(slave.nodes.size(), masters.size());
   for (unsigned int f = 0; f < masters.size(); ++f)
-    quadrature.template for_each_point<Number>(
-      slave, masters[f], [&](const auto &compute) {
-        for_each_part(quadrature, slave, masters[f], f, compute(),
-                      [&](const Number &part, const auto &entry) { entry(result) += part; });
-      });
+    quadrature.template for_each_point<Number>(slave, masters[f], [&](const auto &compute) {
+      for_each_part(quadrature, slave, masters[f], f, compute(),
+                    [&](const Number &part, const auto &entry) { entry(result) += part; });
+    });
   return result;
 }
 

@@ -133,7 +133,9 @@ private:
     std::vector<bool>        on_faces(surface.n_nodes(), false);
     const bool               has_springs =
       std::any_of(solver.model().springs.begin(), solver.model().springs.end(),
-                  [&](const auto &spring) { return spring.face == parameters.face; });
+                  [&](const auto &spring) {
+                    return std::make_pair(spring.body, spring.boundary) == boundary;
+                  });
     std::vector<dealii::Tensor<2, dim>> result(solver.mesh().n_local_nodes());
     for (const auto &face : surface.faces())
       for (const unsigned int node : face.nodes)
@@ -152,7 +154,7 @@ private:
           result[node] = dealii::unit_symmetric_tensor<dim>();
         else
           result[node] =
-            solver.held().reaction_directions(solver.mesh().global_node(node), parameters.face);
+            solver.held().reaction_directions(solver.mesh().global_node(node), boundary);
       }
     return result;
   }

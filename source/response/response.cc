@@ -60,7 +60,8 @@ ChoiceTable<MakeResponse<dim>> contact_responses()
 {
   return {
     {"contact force",
-     "sum of the normal contact forces of one pair or all pairs, or with 'Component' of all contact "
+     "sum of the normal contact forces of one pair or all pairs, or with 'Component' of all "
+     "contact "
      "forces on the side that 'Pairs' names first [force]",
      contact_force<dim>},
     {"contact area",

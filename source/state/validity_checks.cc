@@ -82,6 +82,55 @@ void assess_facets(const StateSolver<dim>               &solver,
         }
     }
 }
+
+/// Count the nodes without a row that penetrate the master although it was beyond the search
+/// distance. All ranks count all nodes.
+template <int dim>
+void assess_missed_nodes(const StateSolver<dim>               &solver,
+                         const std::vector<contact::Row<dim>> &contact_rows,
+                         const ContactState<dim>              &state,
+                         ValidityChecks                       &result)
+{
+  const auto       &surface = solver.surface();
+  const auto       &contact = solver.contact(state.load_case);
+  const auto       &placed  = contact.placed_surface();
+  const auto        x       = placed.to_space(surface.gather(state.positions));
+  const auto        u       = placed.turned(surface.gather(state.displacement));
+  const auto        held    = placed.turned(solver.held().directions(surface, state.positions));
+  std::vector<bool> has_row(surface.n_nodes(), false);
+  for (unsigned int i = 0; i < contact_rows.size(); ++i)
+    has_row[contact.places()[i].slave] = true;
+  for (const auto &dependent : contact.dependent_multipliers())
+    has_row[dependent.node] = true;
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    {
+      const auto  &pair     = contact.pairs()[p];
+      const double distance = pair.parameters.search_distance;
+      if (distance == 0.)
+        continue;
+      const auto gaps    = contact.point_gaps(p, x, held);
+      auto       visited = has_row;
+      for (const auto &face : surface.faces())
+        for (const unsigned int node : face.nodes)
+          {
+            if (!contact::is_on(face, pair.slave) || visited[node] ||
+                !surface.masters(node).empty())
+              continue;
+            visited[node]  = true;
+            const auto gap = gaps->at(x[node], {{node, 1.}}, {face.body, face.boundary});
+            if (!gap || !(gap->gap > distance))
+              continue;
+            auto motion = u[node];
+            for (const auto &[master, weight] : gap->masters)
+              motion -= weight * u[master];
+            if (gap->normal * motion > gap->gap)
+              {
+                ++result.missed;
+                result.missed_pair = pair.name();
+              }
+          }
+    }
+}
 } // namespace
 
 template <int dim>
@@ -129,6 +178,7 @@ ValidityChecks check_validity(const StateSolver<dim>               &solver,
     if (!patch.is_light)
       result.width = std::min(result.width, patch.width);
   assess_facets(solver, contact_rows, state, result);
+  assess_missed_nodes(solver, contact_rows, state, result);
   return result;
 }
 
@@ -169,6 +219,10 @@ std::vector<std::string> warnings(const ValidityChecks &validity)
     }
   if (const auto facets = facet_warning(validity); !facets.empty())
     lines.push_back(facets);
+  if (validity.missed > 0)
+    lines.push_back(counted(validity.missed, "slave node") + " beyond the search distance of '" +
+                    validity.missed_pair +
+                    "' penetrate the master without a force: increase 'Search distance'");
   return lines;
 }
 

@@ -120,8 +120,12 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
         const bool normal = support.component == Support<dim>::normal;
         for (const unsigned int node : face.nodes)
           {
-            Hold hold{support.name, support.face, support.component, normal ? side_of_face[f] : 0,
-                      std::vector<double>(n_load_cases)};
+            Hold hold{support.name,
+                      support.face,
+                      support.component,
+                      normal ? side_of_face[f] : 0,
+                      std::vector<double>(n_load_cases),
+                      std::make_pair(support.body, support.boundary)};
             for (unsigned int c = 0; c < support.values.size(); ++c)
               if (support.values[c])
                 hold.values[c] = support.values[c](dealii::Point<dim>(reference[node]));
@@ -359,23 +363,21 @@ DirichletConstraints<dim>::forces(const Field                            &positi
 }
 
 template <int dim>
-dealii::Tensor<2, dim>
-DirichletConstraints<dim>::reaction_directions(const unsigned int global_node,
-                                               const std::string &face) const
+dealii::Tensor<2, dim> DirichletConstraints<dim>::reaction_directions(
+  const unsigned int                           global_node,
+  const std::pair<unsigned int, unsigned int> &boundary) const
 {
   const unsigned int held_node = find(global_node);
   if (held_node == n_nodes())
     return {};
-  const std::vector<Hold> &holds      = nodes[held_node].holds;
-  const auto               has_normal = [&](const Hold &hold) {
-    return hold.component == Support<dim>::normal;
-  };
-  const auto             first_normal = std::find_if(holds.begin(), holds.end(), has_normal);
+  const std::vector<Hold> &holds = nodes[held_node].holds;
+  const auto has_normal = [&](const Hold &hold) { return hold.component == Support<dim>::normal; };
+  const auto first_normal = std::find_if(holds.begin(), holds.end(), has_normal);
   dealii::Tensor<2, dim> of_axes, of_others;
   for (const Hold &hold : holds)
     if (!has_normal(hold))
-      (hold.face == face ? of_axes : of_others)[hold.component][hold.component] = 1.;
-  if (first_normal != holds.end() && first_normal->face == face)
+      (hold.boundary == boundary ? of_axes : of_others)[hold.component][hold.component] = 1.;
+  if (first_normal != holds.end() && first_normal->boundary == boundary)
     return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
   return of_axes;
 }

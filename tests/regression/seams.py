@@ -109,18 +109,19 @@ def check_case(snug, case, ranks):
 
 
 def unlike_entries(pairs, case):
-    """Sections of every second pair with entries that differ from those of the others, but change
-    the answer by less than its rounding."""
+    """Sections of every second pair with entries that differ from those of the others, but do not
+    change the answer by more than its rounding: blocks of one material expand alike, so that
+    friction has no forces where their pressure is even."""
     text = ""
     for slave, master in pairs[1::2]:
         text += f"""
 subsection Pair {slave}: {master}
   set Gap = 1e-14
-  set Friction = Coulomb
-  set Friction coefficient = 1e-12
   set Search distance = 0.7
   set Interference = true
 """
+        if case["patch"] and case["master"] == "body":
+            text += "  set Friction = Coulomb\n  set Friction coefficient = 0.3\n"
         if case["method"] == "mortar":
             text += "  set Method = nodal\n"
         text += "end\n"

@@ -25,7 +25,7 @@ struct RowPlace
 /// A pair as the scene names it, with the rows that belong to it.
 struct NamedPair
 {
-  Side                              slave, master; ///< after the choice of the slave
+  Side                              slave, master;           ///< after the choice of the slave
   std::string                       slave_name, master_name; ///< after the choice of the slave
   std::optional<ObstacleParameters> obstacle;
   /// ascending row indices with shares: the parts of the force and of the area of each row that
@@ -89,10 +89,10 @@ struct PairedGaps
  * bodies, see PlacedSurface; normals of rows are in space. There is one group of rows per joined
  * pair (JoinedPair), in the order of pairs(). The gap formula of a pair of the scene, evaluated at
  * the slave nodes, is added to the gaps of its rows; rows that belong to several pairs have the
- * mean of their formulas, weighted by their shares. If several groups connect a slave node to the same
- * surface, the node has a row only in the group whose side faces that surface best. The constructor
- * and pair() pair nodes with faces, and the pairing is frozen between these calls. See RowGroup for
- * the meaning of the functions.
+ * mean of their formulas, weighted by their shares. If several groups connect a slave node to the
+ * same surface, the node has a row only in the group whose side faces that surface best. The
+ * constructor and pair() pair nodes with faces, and the pairing is frozen between these calls. See
+ * RowGroup for the meaning of the functions.
  */
 template <int dim>
 class Contact
@@ -227,19 +227,19 @@ private:
   /// Named pairs with shares of a row.
   using Shares = std::vector<std::pair<unsigned int, double>>;
 
-  const PlacedSurface<dim>         placed;
-  const mesh::Surface<dim>        &surface; ///< in space
-  const Position<dim>              position;
-  const faces::FaceShape<dim>      shape;
-  std::vector<JoinedPair>          joined;
-  std::vector<Pair>                chosen; ///< the pairs of joined
-  std::vector<NamedPair>           named;
-  std::vector<Matching>            matching_of; ///< one per pair
-  std::vector<Group>               groups;      ///< one per pair
-  std::vector<RowPlace>            row_places;
+  const PlacedSurface<dim>    placed;
+  const mesh::Surface<dim>   &surface; ///< in space
+  const Position<dim>         position;
+  const faces::FaceShape<dim> shape;
+  std::vector<JoinedPair>     joined;
+  std::vector<Pair>           chosen; ///< the pairs of joined
+  std::vector<NamedPair>      named;
+  std::vector<Matching>       matching_of; ///< one per pair
+  std::vector<Group>          groups;      ///< one per pair
+  std::vector<RowPlace>       row_places;
   /// one per named pair; nullptr: no formula
   std::vector<std::shared_ptr<const geometry::Formula<dim>>> gap_formulas;
-  std::vector<Shares>                 gap_shares;   ///< one per row; empty: no formula
+  std::vector<Shares>              gap_shares; ///< one per row; empty: no formula
   std::vector<DependentMultiplier> shared;
   std::vector<Row<dim>>            paired_rows;    ///< of mortar pairs, at the pairing; else empty
   Field                            paired_offsets; ///< one per row, at the pairing

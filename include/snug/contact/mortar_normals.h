@@ -44,11 +44,11 @@ public:
   private:
     friend class MortarNormals;
 
-    const MortarNormals           &of;
-    const Field                   &positions;
-    const faces::NodalNormals<dim> own; ///< of the slave
+    const MortarNormals            &of;
+    const Field                    &positions;
+    const faces::NodalNormals<dim>  own;  ///< of the slave
     std::optional<PairNormals<dim>> pair; ///< only for mean normals
-    Field                          unit;
+    Field                           unit;
 
     Values(const MortarNormals &of, const Field &positions);
   };

@@ -85,17 +85,16 @@ private:
   mortar::MultiplierNodes                multipliers;
   std::vector<std::vector<unsigned int>> row_nodes; ///< per row, ascending
 
-  void                  choose_multipliers(const PairGeometry<dim> &pair);
-  mortar::FaceCover     choose_functions(SlaveFace                           &face,
-                                         const mortar::FaceIntegrals<double> &of_nodes,
-                                         const mortar::CoverBox<dim>         &box,
-                                         const Field                         &positions) const;
-  mortar::CoverBox<dim> cover_box(const SlaveFace      &face,
-                                  const Points<double> &x,
-                                  const Points<double> &n) const;
-  std::vector<double>   costs() const;
-  void                  collect_row_nodes();
-  void                  leave_out_far_rows(const PairGeometry<dim> &pair);
+  void              choose_multipliers(const PairGeometry<dim> &pair);
+  mortar::FaceCover choose_functions(SlaveFace                           &face,
+                                     const mortar::FaceIntegrals<double> &of_nodes,
+                                     const mortar::CoverBox<dim>         &box,
+                                     const Field                         &positions) const;
+  mortar::CoverBox<dim>
+  cover_box(const SlaveFace &face, const Points<double> &x, const Points<double> &n) const;
+  std::vector<double> costs() const;
+  void                collect_row_nodes();
+  void                leave_out_far_rows(const PairGeometry<dim> &pair);
   template <typename Number>
   std::vector<mortar::MortarFace<dim, Number>> masters(const SlaveFace      &face,
                                                        const Points<Number> &x) const;
@@ -156,12 +155,12 @@ private:
                          const Field                               &positions,
                          const typename MortarNormals<dim>::Values &at_positions,
                          Field                                     &gradient) const;
-  void                        add_face_gradient(const SlaveFace                   &face,
-                                                const std::vector<RowSum<double>> &slopes,
-                                                const Field                       &positions,
-                                                const Field                       &of_nodes,
-                                                Field                             &gradient,
-                                                Field &normal_gradient) const;
+  void add_face_gradient(const SlaveFace                   &face,
+                         const std::vector<RowSum<double>> &slopes,
+                         const Field                       &positions,
+                         const Field                       &of_nodes,
+                         Field                             &gradient,
+                         Field                             &normal_gradient) const;
 };
 } // namespace snug::contact
 

@@ -13,11 +13,12 @@ using WeightsAs = std::vector<std::pair<unsigned int, Number>>;
 /**
  * This class computes the weights of a Projection as functions of positions. The foot point moves
  * within its face: xi and t solve T (x(xi) + t v(xi) - x_s) = 0 at the given positions, with the
- * vector v of PairNormals, and zeta is the point where it meets the true surface. xi may leave [0,1] a little, so that all
- * functions are smooth. Coordinates of xi that equal those of nodes at the pairing are fixed: the
- * choice of the face beside such a foot point is arbitrary, and derivatives would be one-sided.
- * Where some coordinates are fixed, T = (x,_xi + t v,_xi, v)' as paired; otherwise the solution
- * does not depend on T. Foot points on nodes and projections without a normal are fixed altogether.
+ * vector v of PairNormals, and zeta is the point where it meets the true surface. xi may leave
+ * [0,1] a little, so that all functions are smooth. Coordinates of xi that equal those of nodes at
+ * the pairing are fixed: the choice of the face beside such a foot point is arbitrary, and
+ * derivatives would be one-sided. Where some coordinates are fixed, T = (x,_xi + t v,_xi, v)' as
+ * paired; otherwise the solution does not depend on T. Foot points on nodes and projections without
+ * a normal are fixed altogether.
  */
 template <int dim>
 class NormalProjection
@@ -39,10 +40,10 @@ public:
 
   /// Pair at @p positions, with the @p normals of the nodes there. The references to the surface
   /// and the shape must outlive this object.
-  NormalProjection(const mesh::Surface<dim>    &surface,
-                   const faces::FaceShape<dim> &shape,
-                   const Projection<dim>       &projection,
-                   const Field                 &positions,
+  NormalProjection(const mesh::Surface<dim>                &surface,
+                   const faces::FaceShape<dim>             &shape,
+                   const Projection<dim>                   &projection,
+                   const Field                             &positions,
                    const typename PairNormals<dim>::Fields &normals);
 
   /// Return the projection at @p positions and @p normals, with exact derivatives.
@@ -71,8 +72,8 @@ private:
   }
 
   template <typename Number>
-  Value<Number> weights(const faces::PointField<dim, Number> &positions,
-                        const NormalFields<dim, Number>      &normals) const;
+  Value<Number>             weights(const faces::PointField<dim, Number> &positions,
+                                    const NormalFields<dim, Number>      &normals) const;
   typename Equations::Point solve(const Field &positions, const Equations &equations) const;
   double                    off_face(const dealii::Point<dim - 1> &xi) const;
 };

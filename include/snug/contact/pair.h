@@ -75,8 +75,13 @@ struct PairParameters
   std::string friction_coefficient = "0"; ///< formula in x, y, z; read by Coulomb
   std::string friction_bound       = "0"; ///< formula in x, y, z; read by Tresca [force/length^2]
 
-  /// Return whether there may be tangential forces.
-  bool has_friction() const { return friction != Friction::none; }
+  /// Return whether there may be tangential forces: no friction is the same as a coefficient or a
+  /// bound of 0.
+  bool has_friction() const
+  {
+    return (friction == Friction::Coulomb && friction_coefficient != "0") ||
+           (friction == Friction::Tresca && friction_bound != "0");
+  }
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;

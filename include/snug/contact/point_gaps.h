@@ -13,10 +13,10 @@ namespace snug::contact {
 template <int dim>
 struct PointGap
 {
-  dealii::Tensor<1, dim> normal;          ///< n, unit vector into the master
-  double                 gap = 0.;        ///< gap between the true surfaces [length]
-  Weights                masters;         ///< w_k; empty for obstacles
-  unsigned int           pair;            ///< index of the pair of the scene
+  dealii::Tensor<1, dim> normal;   ///< n, unit vector into the master
+  double                 gap = 0.; ///< gap between the true surfaces [length]
+  Weights                masters;  ///< w_k; empty for obstacles
+  unsigned int           pair;     ///< index of the pair of the scene
 };
 
 /// This class computes the gaps of a pair at any points of its slave side. Nodal and obstacle
@@ -53,15 +53,15 @@ private:
 
   double offset(unsigned int pair, const dealii::Tensor<1, dim> &x) const;
 
-  const Field                            &positions;
-  const JoinedPair                       &joined;
-  const Formulas                         &formulas;
-  std::unique_ptr<Obstacle<dim>>          obstacle;
-  dealii::Tensor<1, dim>                  shift; ///< displacement of the obstacle
-  const mesh::Surface<dim>               &surface;
-  geometry::RigidMotion<dim>              slave_motion;
-  PairFaces                               sides;
-  std::unique_ptr<PairNormals<dim>>       normals; ///< none for obstacles
+  const Field                      &positions;
+  const JoinedPair                 &joined;
+  const Formulas                   &formulas;
+  std::unique_ptr<Obstacle<dim>>    obstacle;
+  dealii::Tensor<1, dim>            shift; ///< displacement of the obstacle
+  const mesh::Surface<dim>         &surface;
+  geometry::RigidMotion<dim>        slave_motion;
+  PairFaces                         sides;
+  std::unique_ptr<PairNormals<dim>> normals; ///< none for obstacles
   /// only for mortar contact without mean normals
   std::unique_ptr<faces::NodalNormals<dim>> slave_normals;
   std::unique_ptr<Projector<dim>>           projector;

@@ -32,14 +32,12 @@ private:
   using FacesAtNodes = std::vector<std::vector<unsigned int>>;
 
   const PairGeometry<dim>         pair;
-  std::optional<NearestFace<dim>> nearest;           ///< none for obstacles
+  std::optional<NearestFace<dim>> nearest;             ///< none for obstacles
   FacesAtNodes                    of_slave, of_master; ///< empty for obstacles
 
   FacesAtNodes              faces_at_nodes(const std::vector<unsigned int> &side) const;
   std::vector<unsigned int> nodes_at_foot(unsigned int slave) const;
-  void                      add_couple(const Row<dim>     &row,
-                                       const FacesAtNodes &side,
-                                       TangentFrame<dim>  &frame) const;
+  void add_couple(const Row<dim> &row, const FacesAtNodes &side, TangentFrame<dim> &frame) const;
   dealii::Tensor<2, dim> movable_directions(unsigned int                     slave,
                                             const std::vector<unsigned int> &opposite,
                                             const dealii::Tensor<1, dim>    &normal) const;

@@ -8,7 +8,7 @@ namespace snug::contact {
 /// The part of the couple of a tangential row that acts on the faces around a node of the row.
 struct CouplePatch
 {
-  unsigned int              centre = 0; ///< the node of the row
+  unsigned int              centre = 0;  ///< the node of the row
   std::vector<unsigned int> nodes  = {}; ///< surface nodes of the faces around it
   unsigned int spread = 0; ///< number of tangential directions in which these nodes spread, above 0
 };

@@ -49,10 +49,10 @@ struct CoverBox
  * This class is a quadrature of the part of a slave face that lies opposite to a master face (Puso,
  * Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004). Both faces are projected along n_0, the
  * direction of the slave face or the normal at its centre, into the plane of the tangents t there:
- * x - c = t y + s n_0. The cells of the faces (halves along each coordinate for quadratic faces) are
- * intersected. The vertices are mapped back to the slave face, where the pieces are triangulated.
- * The pieces cover the slave face without a gap, and polynomials on it are integrated exactly.
- * Quadrature points are projected to the master along n_0.
+ * x - c = t y + s n_0. The cells of the faces (halves along each coordinate for quadratic faces)
+ * are intersected. The vertices are mapped back to the slave face, where the pieces are
+ * triangulated. The pieces cover the slave face without a gap, and polynomials on it are integrated
+ * exactly. Quadrature points are projected to the master along n_0.
  */
 template <int dim>
 class SegmentQuadrature

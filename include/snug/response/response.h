@@ -100,8 +100,8 @@ public:
   /// response. Collective.
   virtual void check(const state::StateSolver<dim> & /*solver*/) const {}
 
-  /// Return dJ/du between the nodes, from which the error of J is estimated: {} if J does not depend
-  /// on u, or only at points. Collective.
+  /// Return dJ/du between the nodes, from which the error of J is estimated: {} if J does not
+  /// depend on u, or only at points. Collective.
   virtual FieldDerivative<dim> field_derivative(const state::StateSolver<dim>  &solver,
                                                 const state::ContactState<dim> &state) const = 0;
 

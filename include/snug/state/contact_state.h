@@ -93,6 +93,10 @@ struct ValidityChecks
   /// maximum over nodes, as a fraction of the maximum distance of a node from the origin, because
   /// gaps may have the round-off of this distance
   double displacement = 0.;
+  /// slave nodes without a row, because they are beyond the search distance, that penetrate the
+  /// master, and the name of a pair with such nodes
+  unsigned int missed = 0;
+  std::string  missed_pair;
 };
 
 /// Force and moment about a centre. In the plane the moment [force length] has one component, the

@@ -6,6 +6,8 @@
 #include <snug/supports/constraint_frame.h>
 #include <snug/supports/support.h>
 
+#include <optional>
+
 namespace snug::supports {
 /**
  * This class collects the nodes that supports hold and the directions held there, as functions of
@@ -68,12 +70,13 @@ public:
                            const std::vector<std::vector<double>> &reactions,
                            Field                                  &gradient) const;
 
-  /// Return the projection to the directions of a node in which its reaction is that of the support
-  /// of @p face ("body.boundary"): zero if that support does not hold the node, otherwise all
-  /// directions but the axes that supports of other faces hold. If several faces hold normals, the
-  /// first one has the reaction.
-  dealii::Tensor<2, dim> reaction_directions(unsigned int       global_node,
-                                             const std::string &face) const;
+  /// Return the projection to the directions of a node in which its reaction is that of the
+  /// supports of a @p boundary (body, boundary): zero if they do not hold the node, otherwise all
+  /// directions but the axes that supports of other boundaries hold. If several boundaries hold
+  /// normals, the first one has the reaction.
+  dealii::Tensor<2, dim>
+  reaction_directions(unsigned int                                 global_node,
+                      const std::pair<unsigned int, unsigned int> &boundary) const;
 
   /// Force of a support on a node.
   struct Force
@@ -100,6 +103,8 @@ private:
     unsigned int        component; ///< axis, or Support::normal
     unsigned int        side;      ///< side to which the normal belongs
     std::vector<double> values;    ///< per load case [length]
+    /// body and boundary of the support; none for the axis
+    std::optional<std::pair<unsigned int, unsigned int>> boundary = {};
   };
 
   struct Node

@@ -245,7 +245,7 @@ TEST(Warnings, OfOverlapUnlessItIsWanted)
 {
   const SolvedScene<3> solved(two_blocks(true), {"Contact/Gap=-0.1"});
   const auto          &gaps  = solved.solver.contact(0).paired_gaps();
-  auto                 pairs = solved.solver.contact(0).pairs();
+  const auto          &pairs = solved.solver.contact(0).pairs();
   EXPECT_NEAR(gaps[0].least, -0.1, 1e-13);
   EXPECT_NEAR(gaps[0].overlap, 0.4, 1e-12);
   const auto lines = state::overlap_warnings(pairs, gaps);
@@ -255,9 +255,11 @@ TEST(Warnings, OfOverlapUnlessItIsWanted)
     << lines[0];
   EXPECT_NO_THROW(state::check_overlaps(pairs, gaps));
   EXPECT_THROW(state::check_overlaps(pairs, {{-1., 0., 2.1}}), InputError);
-  pairs[0].parameters.interference = true;
-  EXPECT_EQ(state::overlap_warnings(pairs, gaps).size(), 0u);
-  EXPECT_NO_THROW(state::check_overlaps(pairs, {{-1., 0., 2.1}}));
+  const SolvedScene<3> wanted(two_blocks(true), {"Contact/Gap=-0.1", "Contact/Interference=true"});
+  const auto          &intended = wanted.solver.contact(0).paired_gaps();
+  EXPECT_NEAR(intended[0].least, -0.1, 1e-13);
+  EXPECT_EQ(intended[0].overlap, 0.);
+  EXPECT_EQ(state::overlap_warnings(pairs, intended).size(), 0u);
 }
 
 TEST(Warnings, OfFacetsThatContactSees)

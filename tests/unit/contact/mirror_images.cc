@@ -27,8 +27,8 @@ struct MirrorImages : public RoughBoxes<dim>
 
   static typename RoughBoxes<dim>::Bodies boxes(double radius)
   {
-    auto              bodies         = RoughBoxes<dim>::boxes(6, 6);
-    const std::string shape          = (dim == 2 ? "cylinder z " : "sphere ") + std::to_string(radius);
+    auto              bodies = RoughBoxes<dim>::boxes(6, 6);
+    const std::string shape  = (dim == 2 ? "cylinder z " : "sphere ") + std::to_string(radius);
     bodies[0].curved_faces["bottom"] = bodies[1].curved_faces["top"] = shape;
     return bodies;
   }
@@ -40,13 +40,13 @@ struct MirrorImages : public RoughBoxes<dim>
     for (unsigned int node = 0; node < result.size(); ++node)
       if (!this->is_master(node))
         {
-          auto x = this->positions[node];
-          x[dim - 1] = 2. - x[dim - 1];
+          auto x               = this->positions[node];
+          x[dim - 1]           = 2. - x[dim - 1];
           unsigned int nearest = 0;
           for (unsigned int other = 0; other < result.size(); ++other)
-            if (this->is_master(other) && ((this->positions[other] - x).norm() <
-                                             (this->positions[nearest] - x).norm() ||
-                                           !this->is_master(nearest)))
+            if (this->is_master(other) &&
+                ((this->positions[other] - x).norm() < (this->positions[nearest] - x).norm() ||
+                 !this->is_master(nearest)))
               nearest = other;
           EXPECT_LT((this->positions[nearest] - x).norm(), 1e-12);
           result[node] = result[nearest];

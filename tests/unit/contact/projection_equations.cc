@@ -103,13 +103,13 @@ void expect_exact_slopes(unsigned int degree)
 template <int dim>
 void expect_exact_weights(unsigned int degree, bool has_mean_normals)
 {
-  RoundFace<dim> round(degree);
-  const auto    &scene    = round.scene;
-  const auto     velocity = scene.random_velocity(1);
-  const unsigned int size = round.normals.size();
-  const auto     dn = TwoBoxes<dim>::random_field(2, size), dm = TwoBoxes<dim>::random_field(3, size);
-  const double   h        = 1e-5;
-  unsigned int   n_moving = 0;
+  RoundFace<dim>     round(degree);
+  const auto        &scene    = round.scene;
+  const auto         velocity = scene.random_velocity(1);
+  const unsigned int size     = round.normals.size();
+  const auto   dn = TwoBoxes<dim>::random_field(2, size), dm = TwoBoxes<dim>::random_field(3, size);
+  const double h        = 1e-5;
+  unsigned int n_moving = 0;
   // Slave normals that are not opposite to those of the master.
   auto of_slave = TwoBoxes<dim>::random_field(4, size);
   for (auto &m : of_slave)
@@ -121,7 +121,7 @@ void expect_exact_weights(unsigned int degree, bool has_mean_normals)
     {
       const NormalProjection<dim> moving(scene.surface, round.shape, projection, scene.positions,
                                          {round.normals, of_slave});
-      using Forward      = faces::Differential<1>;
+      using Forward = faces::Differential<1>;
       const faces::PointField<dim, Forward> n_forward(round.normals, dn), m_forward(of_slave, dm);
       const auto forward = moving.at(faces::PointField<dim, Forward>(scene.positions, velocity),
                                      NormalFields<dim, Forward>{n_forward, m_forward});
@@ -132,7 +132,7 @@ void expect_exact_weights(unsigned int degree, bool has_mean_normals)
           const auto n = sum(round.normals, step * h, dn);
           const auto m = has_mean_normals ? sum(of_slave, step * h, dm) : of_slave;
           const faces::PointField<dim, double> of_n(n), of_m(m);
-          const auto there =
+          const auto                           there =
             moving.at(faces::PointField<dim, double>(x), NormalFields<dim, double>{of_n, of_m});
           for (unsigned int k = 0; k < numbers.size(); ++k)
             numbers[k] += factor / (12. * h) * there.surface[k].second;

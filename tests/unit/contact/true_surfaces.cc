@@ -170,8 +170,8 @@ TEST(TrueSurfaces, PointGapsOfMortarPairsAreAlongTheNormalsOfTheSlave)
     for (unsigned int i = 0; i < rows.size(); ++i)
       {
         const unsigned int slave = contact.places()[i].slave;
-        const auto         gap   = gaps->at(scene.positions[slave], {{slave, 1.}},
-                                            contact.pairs()[0].slave.boundaries()[0]);
+        const auto         gap =
+          gaps->at(scene.positions[slave], {{slave, 1.}}, contact.pairs()[0].slave.boundaries()[0]);
         ASSERT_TRUE(gap);
         EXPECT_LT((gap->normal - rows[i].normal).norm(), 1e-12);
         EXPECT_NEAR(scene.gap(scene.positions[slave] + gap->gap * gap->normal), 0., 1e-7);
