@@ -5,6 +5,10 @@
 #include <snug/geometry/rigid_motion.h>
 #include <snug/scene/placed_force.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
 namespace snug::app {
 namespace {
 template <int dim>
@@ -78,6 +82,25 @@ void require_axial(const mesh::BodyMesh<dim>        &mesh,
                     "its axis y only, and no moment");
 }
 
+/// Throw InputError if a boundary lies on the axis of revolution, where no total force can act on
+/// it. Collective.
+template <int dim>
+void require_area(const mesh::BodyMesh<dim>                   &mesh,
+                  const std::string                           &entry,
+                  const std::string                           &face,
+                  const std::pair<unsigned int, unsigned int> &boundary)
+{
+  if (!mesh.idealization().is_axisymmetric())
+    return;
+  double radius = 0.;
+  for (const auto &of : mesh.boundary_faces())
+    if (of.body == boundary.first && of.boundary == boundary.second)
+      for (const unsigned int node : of.nodes)
+        radius = std::max(radius, mesh.reference_positions()[node][0]);
+  if (!(dealii::Utilities::MPI::max(radius, mesh.communicator()) > 0.))
+    throw bad_entry(entry, face, "lies on the axis of revolution and has no area");
+}
+
 /// This class adds the loads of one section of the scene to a load case.
 template <int dim>
 class LoadBuilder
@@ -128,6 +151,7 @@ private:
                      state::LoadCase<dim>             &to) const
   {
     require_axial(mesh, section + entry, key, resultant);
+    require_area(mesh, section + entry, key, find_face(scene, mesh, prefix + key));
     auto &load = boundary(key, to);
     load.resultant.force += resultant.force;
     load.resultant.moment += resultant.moment;

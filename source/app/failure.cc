@@ -42,7 +42,9 @@ int exit_status(const std::exception &error)
 {
   if (dynamic_cast<const InputError *>(&error) != nullptr)
     return 2;
-  return dynamic_cast<const SolveError *>(&error) != nullptr ? 3 : 1;
+  // A search that ends before its first design is evaluated is one that is not solved.
+  return dynamic_cast<const SolveError *>(&error) || dynamic_cast<const Interrupted *>(&error) ? 3
+                                                                                               : 1;
 }
 
 int guarded(MPI_Comm communicator, const std::function<int()> &work, const double patience)

@@ -119,13 +119,15 @@ void ContactParameters::declare(Entries &entries)
     for (const auto &[slave, master] : wanted)
       pairs.push_back({slave, master, {}});
   };
-  entries.add("Pairs", {[names]() { return to_text(names()); }, read},
-              allowed(
-                "a list 'body.boundary: body.boundary, ...' or 'body.boundary: obstacle, ...'"),
-              "The pairs of faces, or of a face and an obstacle: 'punch.bottom: foundation.top'. A "
-              "side may have several boundaries: 'punch.nose + punch.fillet: groove.floor + "
-              "groove.wall'. Pairs whose boundaries are smooth continuations on both sides are "
-              "joined to one contact.");
+  entries.add(
+    "Pairs", {[names]() { return to_text(names()); }, read},
+    allowed("a list 'body.boundary: body.boundary, ...' or 'body.boundary: obstacle, ...'"),
+    "The pairs of faces, or of a face and an obstacle: 'punch.bottom: foundation.top'. A "
+    "side may have several boundaries: 'punch.nose + punch.fillet: groove.floor + "
+    "groove.wall'. Pairs whose boundaries are smooth continuations on both sides are "
+    "joined to one contact. Each keeps its own gap and friction; the contact is mortar if "
+    "one of them is, and has the largest search distance and angle. Responses with a "
+    "component are those of the side that is named first.");
   entries.add(
     "Update pairing", update_pairing,
     "The maximum number of new contact searches after convergence of an optimization, each "

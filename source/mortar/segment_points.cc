@@ -67,7 +67,7 @@ Number section_weight(const mesh::Idealization &idealization, const std::array<N
 template <typename Number>
 std::array<Number, 3> cross(const std::array<Number, 3> &a, const std::array<Number, 3> &b)
 {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
 }
 
 /// Coordinates in the plane of a slave face, with the centre at 0 and size 1.
@@ -126,7 +126,7 @@ private:
   void set_dual(const Vectors<2, Number> &t, const std::array<Number, 2> &n)
   {
     const Number det = t[0][0] * n[1] - t[0][1] * n[0];
-    dual[0]          = {n[1] / det, -n[0] / det};
+    dual[0]          = {{n[1] / det, -n[0] / det}};
   }
 
   void set_dual(const Vectors<3, Number> &t, const std::array<Number, 3> &n)

@@ -35,7 +35,7 @@ ChoiceTable<MakeResponse<dim>> body_responses()
      "'Moment' of the face is the only load.",
      rotation<dim>},
     {"reaction",
-     "component in space of the force that supports and springs apply to the nodes of a face "
+     "component in space of the force that the supports and springs of a face apply to its nodes "
      "[force]",
      reaction<dim>},
     {"reaction moment",

@@ -10,6 +10,10 @@ namespace {
 /// prescribed displacements move a body, no other quantity measures the errors.
 const double round_off = 128. * std::numeric_limits<double>::epsilon();
 
+/// Where no force moves its row by more than this fraction of the displacements and gaps, as where
+/// a motion just closes a gap, all forces are round-off of the solver.
+const double force_round_off = 8. * round_off;
+
 /// Return a / b, or 0 for 0 / 0; NaN stays NaN.
 double relative(double a, double b)
 {
@@ -116,31 +120,33 @@ double largest_load_product(const feti::LoadedProblem &feti)
   return largest;
 }
 
-/// Set w_i to 0 where it is round-off of B u - g, and lambda_i where it moves its row by as little.
-/// Rows of B have lengths of about one, and the coarse problem spreads round-off over all rows.
+/// Set w_i to 0 where it is round-off of B u - g, and lambda to 0 if all forces are round-off. Rows
+/// of B have lengths of about one, and the coarse problem spreads round-off over all rows.
 void set_round_off_to_zero(const feti::LoadedProblem &feti,
                            const feti::PrimalVectors &u,
                            qp::MultiVector           &w,
                            qp::MultiVector           &lambda)
 {
-  double largest[2] = {0., 0.}; // |u|, |g|
+  double largest[3] = {0., 0., 0.}; // |u|, |g|, F_ii |lambda_i|
   for (const auto &part : u)
     for (unsigned int i = 0; i < part.n_rows(); ++i)
       largest[0] = std::max(largest[0], std::abs(part(i)));
   for (unsigned int i = 0; i < w.n_rows(); ++i)
-    largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
-  MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
-  const double length = round_off * (largest[0] + largest[1]);
-  for (unsigned int i = 0; i < w.n_rows(); ++i)
     {
-      // u may be far larger than the lengths F_ii lambda_i that w is compared with later, for
-      // example where prescribed displacements move a body.
-      if (std::abs(w(i)) <= length)
-        w(i) = 0.;
-      // So may u and g where a motion just closes a gap, and all forces are round-off.
-      if (feti.diagonal()[i] * std::abs(lambda(i)) <= length)
-        lambda(i) = 0.;
+      largest[1] = std::max(largest[1], std::abs(feti.g()(i)));
+      largest[2] = larger(largest[2], feti.diagonal()[i] * std::abs(lambda(i)));
     }
+  MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
+  const double size        = largest[0] + largest[1];
+  const bool   is_unloaded = largest[2] <= force_round_off * size;
+  const double length      = (is_unloaded ? force_round_off : round_off) * size;
+  for (unsigned int i = 0; i < w.n_rows(); ++i)
+    // u may be far larger than the lengths F_ii lambda_i that w is compared with later, for example
+    // where prescribed displacements move a body.
+    if (std::abs(w(i)) <= length)
+      w(i) = 0.;
+  if (is_unloaded)
+    lambda = qp::MultiVector(lambda.n_rows());
 }
 
 /// Set the errors of friction. @p length is the length by which forces deform the bodies.

@@ -3,7 +3,7 @@
 from runs import scene
 
 from cases import Figure
-from outcomes import ALL, ONE, Refused, Row, Solved
+from outcomes import ALL, ONE, SOLVERS, Refused, Row, Solved
 from scenes import blocks, energy, even, force, hump, nothing_touches, sinks
 
 BOTH = sinks((1, 1), (1000, 1000), (.3, .3))
@@ -214,4 +214,73 @@ PLACES = [
               Gravity="0 -9.81"), Solved(force(.3))),
 ]
 
-ROWS = [*FREE, *FEW, *PLACES]
+
+
+def rough(coefficient, upper=None, lower=None, contact=None, **settings):
+    """Return two blocks with friction, of which only the contact holds the upper one aside."""
+    return blocks({"Supports": "", **(upper or {})}, {"Supports": "bottom: xy", **(lower or {})},
+                  {"Friction": "Coulomb", "Friction coefficient": coefficient, **(contact or {})},
+                  **settings)
+
+
+def steps(cases, displacement, coefficient=.3, **settings):
+    """Return two blocks with friction, the upper one with a round lower side, over load steps with
+    these displacements of its top, formulas of i."""
+    upper = {"Pressure": "", "Curved faces": "bottom: cylinder z 4", "Box cells": "8, 4",
+             **settings.pop("upper", {})}
+    return rough(coefficient, upper, {"Box cells": "8, 4", **settings.pop("lower", {})},
+                 settings.pop("contact", {}),
+                 sections={"Load case step": {"Cases": cases, "Load step": "true",
+                                              "Displacement": displacement},
+                           "Accuracy": {"Estimate": "none"}}, Load_cases="step", **settings)
+
+
+def forces_of_steps(*wanted):
+    """Return what is asked of the vertical contact force of each step, of which None is any."""
+    def asked(result):
+        forces = [case["state"]["contact_force"][1] for case in result.summary["load_cases"]]
+        return [Figure(f"force of step {i}", abs(force), value, 1e-5)
+                for i, (force, value) in enumerate(zip(forces, wanted)) if value is not None]
+    return asked
+
+
+def aside(value):
+    """Return what is asked of the horizontal force on the upper block."""
+    return lambda result: [Figure("force aside", abs(result.state["contact_force"][0]), value,
+                                  1e-5)]
+
+
+BACK = "upper.top: y = -.01, upper.top: x = .004*(2 - abs(i - 2))"
+FRICTION = [
+    Row("friction at 0.999 of its limit", rough(.3, {"Traction": "top: .2997 0"}),
+        Solved(aside(.2997)), ONE, quick=True),
+    Row("friction at 1.001 of its limit", rough(.3, {"Traction": "top: .3003 0"}),
+        Refused(3, "no equilibrium: body upper escapes"), ONE),
+    Row("friction with SMALSE-M", rough(.3, {"Traction": "top: .1 0"}),
+        Refused(2, "friction"), SOLVERS[1:]),
+    *(Row(f"friction coefficient of {mu:g}", rough(mu, {"Traction": "top: .1 0"}),
+          Solved(aside(.1)), ONE) for mu in (10, 1e3)),
+    Row("friction coefficient of 1e-6, held aside",
+        rough(1e-6, {"Displacement": "top: x = .01"}), Solved(aside(1e-6)), ONE),
+    *(Row(f"friction, a modulus of {modulus:g} times",
+          rough(.3, {"Traction": "top: .1 0", "Young's modulus": 1000 * modulus}),
+          Solved(aside(.1)), ONE) for modulus in (1e-6, 1e6)),
+    Row("friction, Poisson's ratio of 0.4999",
+        rough(.3, {"Traction": "top: .1 0", "Poisson's ratio": .4999},
+              {"Poisson's ratio": .4999}), Solved(aside(.1)), ONE),
+    Row("friction, load steps that turn back", steps(5, BACK), Solved(), ONE, quick=True),
+    Row("friction, load steps that turn back, mortar",
+        steps(5, BACK, lower={"Box cells": "11, 4"}), Solved(), ONE),
+    Row("friction, load steps that touch exactly in the third and part again",
+        steps(5, "upper.top: y = -.00185*(2 - abs(i - 2)), upper.top: x = .001*i",
+              upper={"Curved faces": ""}, contact={"Gap": ".0037"}),
+        Solved(forces_of_steps(0., 0., 0., 0., 0.)), ONE),
+    Row("exact touch in the third of six load cases",
+        blocks({"Box corner": "0, 1.0111", "Pressure": ""}, lower={"Box cells": "3, 4"},
+               sections={"Load case ramp": {
+                   "Cases": 6, "Displacement": "upper.top: y = -.0037*(i + 1)"}},
+               Load_cases="ramp"),
+        Solved(forces_of_steps(0., 0., 0., None, None, None)), ONE, quick=True),
+]
+
+ROWS = [*FREE, *FEW, *PLACES, *FRICTION]

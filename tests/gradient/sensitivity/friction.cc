@@ -215,7 +215,7 @@ void check_steps(const TestScene<dim> &given)
 
 TEST(FrictionGradient, Steps2D)
 {
-  check_steps(pushed_punch<2>(12, contact::Method::nodal, path));
+  check_steps(pushed_punch<2>(11, contact::Method::nodal, path));
 }
 
 TEST(FrictionGradient, StepsOfBound)

@@ -157,7 +157,7 @@ TEST(WeakFriction, BothSidesOfASlipThatBeginsInSpace)
 
 TEST(WeakFriction, BothSidesOfAContactThatCloses)
 {
-  const double aside = 0.025;
+  const double aside = 0.022;
   const auto   force = [&](const double depth) { return least_force<2>(aside, depth); };
   double       depth = 0.015;
   // The least force falls until its contact opens.

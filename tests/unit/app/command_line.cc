@@ -80,6 +80,7 @@ TEST(Failure, StatusFollowsTheKindOfError)
   EXPECT_EQ(app::exit_status(InputError("")), 2);
   EXPECT_EQ(app::exit_status(SolveError("")), 3);
   EXPECT_EQ(app::exit_status(TangledMesh("")), 3);
+  EXPECT_EQ(app::exit_status(Interrupted("")), 3);
   EXPECT_EQ(app::exit_status(std::bad_alloc()), 1);
 }
 
