@@ -124,10 +124,8 @@ void ContactParameters::declare(Entries &entries)
     allowed("a list 'body.boundary: body.boundary, ...' or 'body.boundary: obstacle, ...'"),
     "The pairs of faces, or of a face and an obstacle: 'punch.bottom: foundation.top'. A "
     "side may have several boundaries: 'punch.nose + punch.fillet: groove.floor + "
-    "groove.wall'. Pairs whose boundaries are smooth continuations on both sides are "
-    "joined to one contact. Each keeps its own gap and friction; the contact is mortar if "
-    "one of them is, and has the largest search distance and angle. Responses with a "
-    "component are those of the side that is named first.");
+    "groove.wall'. Pairs that continue each other smoothly on both sides are one contact with "
+    "the gaps and the friction of each.");
   entries.add(
     "Update pairing", update_pairing,
     "The maximum number of new contact searches after convergence of an optimization, each "
