@@ -269,7 +269,7 @@ void sum_up_contact(const contact::Contact<dim> &contact,
           pair.max_pressure = std::max({pair.max_pressure, point.pressure, pressures[i]});
           pair.active_contacts += point.strong;
         }
-      state.contact_force += pair.force;
+      state.contact_force += (named.master_is_first ? -1. : 1.) * pair.force;
       state.contact_area += pair.contact_area;
       state.max_pressure = std::max(state.max_pressure, pair.max_pressure);
       state.pairs.push_back(pair);
