@@ -157,7 +157,7 @@ struct ContactState
   double compliance    = 0.; ///< f'u
   double strain_energy = 0.; ///< elastic energy: 1/2 u'Ku without thermal strains
   /// @}
-  dealii::Tensor<1, dim> contact_force;          ///< on the slave sides [force]
+  dealii::Tensor<1, dim> contact_force; ///< on the sides that the scene names first [force]
   double                 contact_area      = 0.; ///< area of active rows
   double                 max_pressure      = 0.;
   unsigned int           active_contacts   = 0;
