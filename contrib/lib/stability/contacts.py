@@ -215,7 +215,6 @@ PLACES = [
 ]
 
 
-
 def rough(coefficient, upper=None, lower=None, contact=None, **settings):
     """Return two blocks with friction, of which only the contact holds the upper one aside."""
     return blocks({"Supports": "", **(upper or {})}, {"Supports": "bottom: xy", **(lower or {})},

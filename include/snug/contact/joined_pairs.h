@@ -46,8 +46,7 @@ PairParameters joined_parameters(const PairParameters &a, const PairParameters &
 /// pairs of one boundary of each side. The sides of a pair whose slave is not chosen yet
 /// (Slave::finer) are exchanged if the pair can be joined with an earlier pair only in this way.
 /// @throws TangledMesh if faces have no normal, InputError if two pairs with different entries
-/// bring
-///   together the same boundaries.
+/// bring together the same boundaries.
 template <int dim>
 std::vector<JoinedPair> join_pairs(const mesh::Surface<dim>                 &surface,
                                    const faces::FaceShape<dim>              &shape,

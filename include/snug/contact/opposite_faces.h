@@ -19,9 +19,8 @@ constexpr double steepest_angle = 60.;
  * Return, for each slave face, the opposite master faces in ascending order. Faces are opposite
  * under three conditions. Their normals at the centres are opposite up to the pair's largest angle
  * (and steepest_angle). The faces overlap along the slave's normal, or along the mean of @p normals
- * at its nodes if these are means. Their distance is at most 1.5
- * times that of the closest master face plus the slave face's diameter, which excludes faces behind
- * the closest one.
+ * at its nodes if these are means. Their distance is at most 1.5 times that of the closest master
+ * face plus the slave face's diameter, which excludes faces behind the closest one.
  */
 template <int dim>
 std::vector<std::vector<unsigned int>> opposite_faces(const PairGeometry<dim>  &pair,

@@ -11,8 +11,8 @@ namespace snug::contact {
  * Return the rows of nodal (node to face) contact of one pair. The row of slave node s with the
  * weights w_k of its Projection to a master face is
  *   c_s = n,  c_k = -w_k n,  gap = n . (x_m - x_s) + softening,  n = -v/|v|
- * with the softening of the Projection and its vector v (PairNormals). x_m is the point
- * of the true surface of the face over its point sum_k w_k x_k. Hanging master nodes are replaced
+ * with the softening of the Projection and its vector v (PairNormals). x_m is the point of the true
+ * surface of the face over its point sum_k w_k x_k. Hanging master nodes are replaced
  * by their masters. Faces stay; weights (NormalProjection), normals and gaps follow the positions.
  * Slave nodes that hang carry no row. Slave nodes carry no row either if their closest point lies
  * beyond the edge of the master side (edge_tolerance), is out of reach or does not face them

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Signs of forces, reactions at edges, and nodes beyond the search distance: contact_answers.py,
+with the program that SNUG names."""
+
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"))
+
+from runs import scene, solve  # noqa: E402
+
+
+def force(quantity, component, **entries):
+    """Return the entries of a response."""
+    return {"Quantity": quantity, "Component": component, **entries}
+
+
+def pushed(upper, lower):
+    """Return a block with so many cells that is pressed down by 0.01 and moved to the right."""
+    return scene(
+        {"up": {"Box corner": "0, 1", "Box cells": f"{upper}, 3", "Young's modulus": 1000,
+                "Displacement": "top: y = -0.01, top: x = 0.004"},
+         "lo": {"Box corner": "-0.5, 0", "Box size": "2, 1", "Box cells": f"{lower}, 3",
+                "Young's modulus": 1000, "Supports": "bottom: xy"}},
+        {"Pairs": "up.bottom: lo.top", "Friction": "Coulomb", "Friction coefficient": 0.1},
+        sections={"Response fx": force("contact force", "x"),
+                  "Response fy": force("contact force", "y"),
+                  "Response ff": force("friction force", "x"),
+                  "Response fm": force("friction moment", "z", Point="0, 0.9"),
+                  "Accuracy": {"Estimate": "none"}},
+        Dimension=2, Responses="fx, fy, ff, fm")
+
+
+def pulled_edges():
+    """Return a block that is held at the top and its left side and pressed on its free side."""
+    return scene(
+        {"block": {"Box cells": "4, 4, 4", "Young's modulus": 1000, "Supports": "left: x",
+                   "Displacement": "top: z = -0.01, top: y = 0.002*x, bottom: z = 0",
+                   "Pressure": "right: 3"}}, {},
+        sections={f"Response {name}": force("reaction", component, Face=f"block.{face}")
+                  for name, component, face in (("top", "z", "top"), ("bottom", "z", "bottom"),
+                                                ("left", "x", "left"), ("free", "z", "right"),
+                                                ("beside", "x", "top"))},
+        Dimension=3, Responses="top, bottom, left, free, beside")
+
+
+def round_on_plane(distance):
+    """Return a round side that is pressed on a block, whose contact is wider than its nodes within
+    the search distance if this is small."""
+    return scene(
+        {"up": {"Box corner": "-0.5, 1", "Box cells": "12, 3", "Young's modulus": 1000,
+                "Curved faces": "bottom: cylinder z 2",
+                "Displacement": "top: y = -0.01, top: x = 0"},
+         "lo": {"Box corner": "-1, 0", "Box size": "2, 1", "Box cells": "24, 6",
+                "Young's modulus": 1000, "Supports": "bottom: xy"}},
+        {"Pairs": "up.bottom: lo.top", "Search distance": distance}, Dimension=2)
+
+
+def main():
+    wrong = 0
+
+    def expect(what, is_right):
+        nonlocal wrong
+        wrong += not is_right
+        print("right" if is_right else "WRONG", what)
+    # The finer side is the slave: the side named first, then the other one.
+    first, second = (solve(pushed(*cells)).state["responses"] for cells in ((6, 8), (4, 12)))
+    for name, value in first.items():
+        expect(f"{name}: {value} with one slave, {second[name]} with the other one",
+               abs(value - second[name]) < 0.05 * abs(value))
+    expect("the upper block is pushed up and held back", first["fy"] > 0. > first["ff"])
+    values = solve(pulled_edges()).state["responses"]
+    print(values)
+    expect("a free face has no reaction", values["free"] == 0.)
+    expect("a face has no reaction along axes that it does not hold", values["beside"] == 0.)
+    expect("reactions balance the pressure", abs(values["left"] - 3.) < 1e-9)
+    expect("reactions balance each other", abs(values["top"] + values["bottom"]) < 1e-9)
+    for distance, warns in ((0.001, True), (0.1, False)):
+        warnings = solve(round_on_plane(distance)).summary["warnings"]
+        expect(f"search distance {distance}: {warnings}",
+               any("beyond the search distance" in line for line in warnings) == warns)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
