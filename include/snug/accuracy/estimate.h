@@ -23,10 +23,10 @@ struct EnergyEstimate
  *     + \int q_\eta\,(g - n\cdot[u_h])\,dA
  *     + \lambda\cdot c(z + s u_h) - \int p_h\,n\cdot[z + s u_h]\,dA + J(p_h) - J_h. @f]
  * e_u and e_z are the local errors of the state and of z, its adjoint minus s u_h and minus the
- * motion of FieldDerivative. B is that of SurfaceLayer, q_eta are the contact forces of the adjoint per area, c are the contact rows, and
- * s is the stiffness of FieldDerivative. The last difference is that between J of the pressures
- * between nodes and J of the pressures that J reads. At degree 2 its absolute value enters, and
- * the two terms before it are left out.
+ * motion of FieldDerivative. B is that of SurfaceLayer, q_eta are the contact forces of the adjoint
+ * per area, c are the contact rows, and s is the stiffness of FieldDerivative. The last difference
+ * is that between J of the pressures between nodes and J of the pressures that J reads. At degree 2
+ * its absolute value enters, and the two terms before it are left out.
  */
 struct ResponseEstimate
 {
