@@ -123,10 +123,10 @@ std::vector<bool> TangentFrames<dim>::rely_on_master(const std::vector<unsigned 
 }
 
 template <int dim>
-std::pair<TangentFrame<dim>, unsigned int>
-TangentFrames<dim>::frame(const unsigned int slave,
-                          const Row<dim>    &row,
-                          const bool         relies_on_master) const
+typename TangentFrames<dim>::Tangents
+TangentFrames<dim>::tangents(const unsigned int slave,
+                             const Row<dim>    &row,
+                             const bool         relies_on_master) const
 {
   const auto tangential = free_directions<dim>({row.normal});
   const auto movable =
@@ -134,17 +134,23 @@ TangentFrames<dim>::frame(const unsigned int slave,
     movable_directions(slave, relies_on_master ? nodes_at_foot(slave) : std::vector<unsigned int>(),
                        row.normal) *
     tangential;
-  const unsigned int n_tangents = rank_of(movable);
-  TangentFrame<dim>  result;
+  Tangents result{{}, rank_of(movable)};
+  auto     of_any_node = free_directions<dim>(pair.held[slave]);
+  for (const auto &[node, c] : row.coefficients)
+    of_any_node += free_directions<dim>(pair.held[node]);
+  // A direction that is left out although a node is free there depends on other rows.
+  if (rank_of(tangential * of_any_node * tangential) == result.n_free)
+    result.n_held = dim - 1 - result.n_free;
+  auto &frame = result.frame;
   // If only one direction of the tangent plane is free, it is the first tangent.
-  result.reference = largest_column(dim == 3 && n_tangents == 1 ? movable : tangential);
+  frame.reference = largest_column(dim == 3 && result.n_free == 1 ? movable : tangential);
   if (pair.pair.obstacle)
-    result.displacement = pair.obstacle_displacement();
+    frame.displacement = pair.obstacle_displacement();
   // In axisymmetric sections, rotations are no rigid motions.
   else if (!pair.surface.idealization().is_axisymmetric())
     for (const FacesAtNodes *side : {&of_slave, &of_master})
-      add_couple(row, *side, result);
-  return {result, n_tangents};
+      add_couple(row, *side, frame);
+  return result;
 }
 
 /// Return the nodes with shape functions at the foot of a slave node.

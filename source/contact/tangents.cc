@@ -175,18 +175,19 @@ void Contact<dim>::make_tangents(const Field                      &positions,
           const unsigned int row = begin + i;
           if (!frictions[row].resists())
             continue;
-          unsigned int n_tangents;
-          std::tie(frames[row], n_tangents) =
-            maker.frame(slaves[i], paired[row], rely_on_master[i]);
-          const auto &at_node = at_nodes.at(slaves[i]);
+          auto [frame, n_free, n_held] = maker.tangents(slaves[i], paired[row], rely_on_master[i]);
+          const auto &at_node          = at_nodes.at(slaves[i]);
+          if (at_node.size() > 1)
+            n_held = 0;
           if (at_node.size() > 2)
-            n_tangents = 0;
+            n_free = 0;
           else if (at_node.size() == 2)
             others[row] = {at_node[at_node[0] == row],
                            share_first_tangent(paired[at_node[0]].normal, paired[at_node[1]].normal,
-                                               n_tangents, frames[row])};
-          for (unsigned int index = 0; index < n_tangents; ++index)
-            tangent_places.push_back({row, index});
+                                               n_free, frame)};
+          frames[row] = std::move(frame);
+          for (unsigned int index = 0; index < n_free + n_held; ++index)
+            tangent_places.push_back({row, index, index >= n_free});
         }
     }
 }

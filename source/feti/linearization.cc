@@ -125,7 +125,8 @@ void Linearization::weight_ground(const std::vector<double> &entries)
         double square = 0.; // of the row, weighted
         for (unsigned int e = start[row]; e < start[row + 1]; ++e)
           square += entries[e * width] * entries[e * width] * entries[e * width + 1];
-        ground[row] *= square / F_diagonal[row];
+        if (F_diagonal[row] > 0.) // otherwise B has no entries in the row
+          ground[row] *= square / F_diagonal[row];
         F_diagonal[row] += D[row];
       }
 }

@@ -28,6 +28,7 @@ qp::FreeRows strong_rows(const state::StateSolver<dim>  &solver,
       rows[i] = state.contact[of_contact[i]].strong;
   auto w = feti.linearization().multiply_B(state.u);
   w.add(-1., feti.g());
+  feti.linearization().add_compliance(-1., state.dual.lambda, w);
   const auto slides = [&](const qp::FrictionCone &cone) {
     return state.contact[of_contact[cone.normal]].friction == state::FrictionStatus::slip;
   };

@@ -75,8 +75,10 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
     }
   for (unsigned int i = 0; i < feti.n_owned(); ++i)
     {
-      const double lambda = state.dual.lambda(i);
-      sums[0] += feti.linearization().compliance(i) * lambda * lambda; // energy of springs
+      const double lambda  = state.dual.lambda(i);
+      const double stretch = feti.linearization().compliance(i) * lambda;
+      // Only springs have an energy. The stretch of a held tangential row is part of its slip.
+      sums[feti.linearization().contact_rows()[i] ? 3 : 0] += lambda * stretch;
       sums[3] += lambda * (feti.d()(i) + state.dual.residual(i));
     }
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, solver.context().communicator());
@@ -130,11 +132,14 @@ void describe_friction(const StateSolver<dim>     &solver,
   const auto        &scales     = solver.gluing(state.load_case).contact_scales();
   const auto         directions = contact.tangent_directions(rows.contact);
   const unsigned int n          = contact.n_rows();
-  state.slips                   = state.slips_before;
+  qp::MultiVector    stretch(state.dual.lambda.n_rows()); // of held tangents
+  solver.feti(state).linearization().add_compliance(1., state.dual.lambda, stretch);
+  const auto stretches = solver.gluing(state.load_case).gather_contact(stretch.column(0));
+  state.slips          = state.slips_before;
   state.slips.resize(directions.size(), 0.);
   for (unsigned int j = 0; j < directions.size(); ++j)
     {
-      state.slips[j] -= gaps[n + j] * scales[n + j];
+      state.slips[j] -= (gaps[n + j] + stretches[n + j]) * scales[n + j];
       auto &point = state.contact[contact.tangents()[j].row];
       if (scales[n + j] == 0.)
         continue;

@@ -40,9 +40,10 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
                     const supports::DirichletConstraints<dim> &held,
                     const RowCoefficients<dim>                &reference,
                     const std::vector<contact::Tangent>       &tangents,
-                    const std::vector<unsigned int>           &clusters)
+                    const std::vector<unsigned int>           &clusters,
+                    const double                               modulus)
   : held(held)
-  , rows(mesh, tearing, surface, held, reference, tangents, clusters)
+  , rows(mesh, tearing, surface, held, reference, tangents, clusters, modulus)
   , n_tangents(narrow<unsigned int>(tangents.size()))
 {
   for (const auto &row : rows.owned)
@@ -166,24 +167,6 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
 }
 
 template <int dim>
-double
-Gluing<dim>::gap(unsigned int i, const RowCoefficients<dim> &now, unsigned int load_case) const
-{
-  double gap = now.row(i).gap;
-  for (const auto &c : now.row(i).coefficients)
-    {
-      const unsigned int h = rows.held_of_surface[c.first];
-      if (h == held.n_nodes())
-        continue;
-      const auto &frame = now.held[h];
-      for (unsigned int k = 0; k < frame.directions.size(); ++k)
-        // c . u = (projected c) . u + sum_k (c . q_k) (q_k . u), where q_k . u = s_k is known.
-        gap -= (c.second * frame.directions[k]) * frame.values[k][load_case];
-    }
-  return gap;
-}
-
-template <int dim>
 double Gluing<dim>::gap_derivative(unsigned int                i,
                                    const RowCoefficients<dim> &now,
                                    const RowCoefficients<dim> &derivative,
@@ -214,7 +197,7 @@ qp::MultiVector Gluing<dim>::right_hand_side(const RowCoefficients<dim> &now,
       const auto &row = rows.owned[i];
       if (row.source == Source::contact)
         // The factor is 1 / nr, as that of the row itself.
-        g(i) = row.factor * gap(row.index, now, load_case);
+        g(i) = row.factor * rows.gap(row.index, now, load_case);
       else if (row.source == Source::held)
         g(i) = row.factor * now.held[row.index].values[row.item][load_case];
     }
@@ -300,10 +283,17 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const double            
 template <int dim>
 std::vector<double> Gluing<dim>::compliances(const RowCoefficients<dim> &now) const
 {
-  std::vector<double> D(now.springs.empty() ? 0 : rows.owned.size(), 0.);
+  const bool          any = !now.springs.empty() || !rows.held_tangents.empty();
+  std::vector<double> D(any ? rows.owned.size() : 0, 0.);
   for (unsigned int i = 0; i < D.size(); ++i)
-    if (const auto &row = rows.owned[i]; row.source == Source::spring)
-      D[i] = row.factor * row.factor / now.springs[row.index].stiffness;
+    {
+      const auto &row = rows.owned[i];
+      if (row.source == Source::spring)
+        D[i] = row.factor * row.factor / now.springs[row.index].stiffness;
+      else if (const auto held_tangent = rows.held_tangents.find(row.index);
+               row.source == Source::contact && held_tangent != rows.held_tangents.end())
+        D[i] = row.factor * row.factor / held_tangent->second;
+    }
   return D;
 }
 
@@ -314,8 +304,12 @@ Gluing<dim>::compliance_derivatives(const RowCoefficients<dim> &now,
 {
   auto D = compliances(now);
   for (unsigned int i = 0; i < D.size(); ++i)
-    if (const auto &row = rows.owned[i]; row.source == Source::spring)
-      D[i] *= -derivative.springs[row.index].stiffness / now.springs[row.index].stiffness;
+    {
+      const auto &row = rows.owned[i];
+      D[i] *= row.source == Source::spring
+                ? -derivative.springs[row.index].stiffness / now.springs[row.index].stiffness
+                : 0.;
+    }
   return D;
 }
 

@@ -82,13 +82,14 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
                             const supports::DirichletConstraints<dim> &held,
                             const RowCoefficients<dim>                &reference,
                             const std::vector<contact::Tangent>       &tangents,
-                            const std::vector<unsigned int>           &clusters)
+                            const std::vector<unsigned int>           &clusters,
+                            const double                               modulus)
   : mesh(mesh), surface(surface), held(held)
 {
   // The order matters, because scales need the copies of the surface nodes, and the numbers of
   // contact rows come after those of gluing and supports on the same rank.
   collect_surface(tearing);
-  scale_rows(reference, tangents);
+  scale_rows(reference, tangents, modulus);
   // The rank of the first node of a cluster owns all rows at the nodes of the cluster, so that
   // B D^-1 B' is block diagonal over ranks.
   const auto           ranks = ranks_of_nodes(mesh, surface, clusters, reference.springs);
@@ -114,13 +115,60 @@ GluingRows<dim>::projected(unsigned int                                       su
   return result;
 }
 
+template <int dim>
+double GluingRows<dim>::gap(const unsigned int          i,
+                            const RowCoefficients<dim> &now,
+                            const unsigned int          load_case) const
+{
+  double gap = now.row(i).gap;
+  for (const auto &c : now.row(i).coefficients)
+    {
+      const unsigned int h = held_of_surface[c.first];
+      if (h == held.n_nodes())
+        continue;
+      const auto &frame = now.held[h];
+      for (unsigned int k = 0; k < frame.directions.size(); ++k)
+        // c . u = (projected c) . u + sum_k (c . q_k) (q_k . u), where q_k . u = s_k is known.
+        gap -= (c.second * frame.directions[k]) * frame.values[k][load_case];
+    }
+  return gap;
+}
+
+/// Return whether displacements are prescribed along a tangential row in any load case.
+template <int dim>
+bool GluingRows<dim>::is_displaced(const unsigned int          i,
+                                   const RowCoefficients<dim> &reference) const
+{
+  const auto n_load_cases =
+    reference.held.empty() ? 0u : narrow<unsigned int>(reference.held[0].values[0].size());
+  for (unsigned int load_case = 0; load_case < n_load_cases; ++load_case)
+    if (gap(i, reference, load_case) != 0.)
+      return true;
+  return false;
+}
+
+/// Return the stiffness of a body near a node, E h^(dim - 2) times the thickness or the
+/// circumference.
+template <int dim>
+double GluingRows<dim>::stiffness_at(const unsigned int surface_node, const double modulus) const
+{
+  const auto &x = surface.reference_positions();
+  double      h = 1.;
+  if (dim == 3)
+    for (const auto &face : surface.faces())
+      if (std::find(face.nodes.begin(), face.nodes.end(), surface_node) != face.nodes.end())
+        h = (x[face.nodes.back()] - x[face.nodes.front()]).norm();
+  return modulus * mesh.idealization().weight(x[surface_node]) * h;
+}
+
 /// Compute the scales. A coefficient c spread evenly over m copies has the square |c|^2 / m, so
 /// scaled rows have unit length. Use the reference geometry only, so that nr does not depend on the
 /// design. A row whose nodes are held in its direction has the scale 0. Tangential rows have the
 /// scale of their normal row, so that the friction cone is circular in the multipliers.
 template <int dim>
 void GluingRows<dim>::scale_rows(const RowCoefficients<dim>          &reference,
-                                 const std::vector<contact::Tangent> &tangents)
+                                 const std::vector<contact::Tangent> &tangents,
+                                 const double                         modulus)
 {
   // A row whose projection is round-off of a unit normal has vanished.
   const double vanishing = 1e-12;
@@ -131,9 +179,15 @@ void GluingRows<dim>::scale_rows(const RowCoefficients<dim>          &reference,
         square += projected(c.first, c.second, reference.held).norm_square() / copies[c.first];
       scales.push_back(square < vanishing ? 0. : std::sqrt(square));
     }
-  for (std::size_t i = 0; i < tangents.size(); ++i)
-    if (double &scale = scales[reference.contact.size() + i]; scale > 0.)
-      scale = scales[tangents[i].row];
+  for (unsigned int i = 0; i < tangents.size(); ++i)
+    {
+      const unsigned int row = narrow<unsigned int>(reference.contact.size()) + i;
+      const bool counts = tangents[i].is_held ? is_displaced(row, reference) : scales[row] > 0.;
+      scales[row]       = counts ? scales[tangents[i].row] : 0.;
+      if (tangents[i].is_held && counts)
+        held_tangents[row] =
+          stiffness_at(reference.tangents[i].coefficients.front().first, modulus);
+    }
 }
 
 template <int dim>

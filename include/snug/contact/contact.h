@@ -54,6 +54,8 @@ struct Tangent
 {
   unsigned int row;   ///< index of the contact row
   unsigned int index; ///< of the direction in the row's frame, see tangent_direction()
+  /// Supports hold the direction at the slave node and at the nodes opposite to it.
+  bool is_held = false;
 };
 
 /// Contact of the slave node of a row with another obstacle.

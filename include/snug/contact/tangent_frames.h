@@ -22,9 +22,15 @@ public:
   std::vector<bool> rely_on_master(const std::vector<unsigned int> &slaves,
                                    const Row<dim>                  *rows) const;
 
-  /// Return the frame of the contact row of a @p slave node and the number of its tangents.
-  std::pair<TangentFrame<dim>, unsigned int>
-  frame(unsigned int slave, const Row<dim> &row, bool relies_on_master) const;
+  /// Frame of a contact row. Its tangents come first that the bodies can follow, and then those
+  /// that supports hold at all nodes of the row. The slip along the latter is prescribed.
+  struct Tangents
+  {
+    TangentFrame<dim> frame;
+    unsigned int      n_free = 0, n_held = 0;
+  };
+  /// Return the tangents of the contact row of a @p slave node.
+  Tangents tangents(unsigned int slave, const Row<dim> &row, bool relies_on_master) const;
 
 private:
   /// Faces of a side at its nodes, and at the masters of its hanging nodes; one list per surface

@@ -12,6 +12,12 @@ namespace snug::state {
  * over the copies of its nodes, after projecting c off the held directions. The share (c . q) s of
  * these directions goes to the gap. The row is divided by nr = sqrt(sum_a |c_a|^2 / m_a) of the
  * reference geometry. Then B B' = I except for nodes shared by contact rows.
+ *
+ * A tangential row along which supports hold both sides (contact::Tangent) has no entries in B, but
+ * for those of its couple. Its slip is prescribed, and its friction force goes to the supports. The
+ * row has the compliance D of the body near the node, so that the force follows the slip
+ * continuously where the slip turns back. The force is at its limit once the slip exceeds D times
+ * the limit. A held row along which no displacement is prescribed has no dual row.
  */
 template <int dim>
 class Gluing
@@ -22,8 +28,8 @@ public:
    * @p reference contains at the reference geometry (equal on all ranks), with the places
    * @p tangents of the tangential rows. The rank that owns a row
    * follows from the @p clusters of all positions of the bodies (contact_clusters()), so that the
-   * rows of gluing and supports are the same in all positions. @p held must outlive this object.
-   * Collective.
+   * rows of gluing and supports are the same in all positions. @p modulus is the maximum Young's
+   * modulus of the bodies [force / length^2]. @p held must outlive this object. Collective.
    */
   Gluing(const mesh::BodyMesh<dim>                 &mesh,
          const mesh::Tearing                       &tearing,
@@ -31,7 +37,8 @@ public:
          const supports::DirichletConstraints<dim> &held,
          const RowCoefficients<dim>                &reference,
          const std::vector<contact::Tangent>       &tangents,
-         const std::vector<unsigned int>           &clusters);
+         const std::vector<unsigned int>           &clusters,
+         double                                     modulus);
 
   const feti::RowLayout &layout() const { return *rows.layout; }
 
@@ -68,7 +75,10 @@ public:
 
   /// Return the gap of contact row @p i in a load case, minus the part that the displacements held
   /// at its nodes take [length].
-  double gap(unsigned int i, const RowCoefficients<dim> &rows, unsigned int load_case) const;
+  double gap(unsigned int i, const RowCoefficients<dim> &coefficients, unsigned int load_case) const
+  {
+    return rows.gap(i, coefficients, load_case);
+  }
 
   /// Return the normal rows that the supports at their nodes hold entirely. Such rows have no dual
   /// row, and their gaps must not be negative.
@@ -93,8 +103,8 @@ public:
 
   /// @name Springs, in the order of RowCoefficients::springs
   /// @{
-  /// Return D = 1 / (nr^2 kappa) of the owned rows, zero for other rows; empty without springs. The
-  /// equations of the rows are B u - D lambda = g.
+  /// Return D = 1 / (nr^2 kappa) of the owned rows of springs and of held tangential rows, zero for
+  /// other rows; empty if all are zero. The equations of the rows are B u - D lambda = g.
   std::vector<double> compliances(const RowCoefficients<dim> &rows) const;
   /// Return the derivatives D'.
   std::vector<double> compliance_derivatives(const RowCoefficients<dim> &rows,

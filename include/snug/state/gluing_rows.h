@@ -84,7 +84,8 @@ public:
              const supports::DirichletConstraints<dim> &held,
              const RowCoefficients<dim>                &reference,
              const std::vector<contact::Tangent>       &tangents,
-             const std::vector<unsigned int>           &clusters);
+             const std::vector<unsigned int>           &clusters,
+             double                                     modulus);
 
   /// Return the part of a coefficient at a surface node that remains after projecting it off the
   /// directions held there.
@@ -92,12 +93,19 @@ public:
                                    const dealii::Tensor<1, dim>                      &coefficient,
                                    const std::vector<supports::ConstraintFrame<dim>> &frames) const;
 
+  /// Return the gap of row @p i in a load case, minus the part that the displacements held at its
+  /// nodes take [length].
+  double gap(unsigned int i, const RowCoefficients<dim> &rows, unsigned int load_case) const;
+
   std::unique_ptr<feti::RowLayout> layout;
   std::vector<std::vector<Entry>>  entries; ///< per subdomain
   std::vector<OwnedRow>            owned;
   std::vector<double>              scales;        ///< nr per RowCoefficients::row(), or 0
   std::vector<double>              spring_scales; ///< nr per RowCoefficients::springs
-  std::vector<unsigned int>        copies;        ///< per surface node
+  /// Stiffness of the bodies [force / length] at the tangential rows that are held
+  /// (contact::Tangent) and displaced, by RowCoefficients::row().
+  std::map<unsigned int, double> held_tangents;
+  std::vector<unsigned int>      copies; ///< per surface node
   /// held node of each surface node, or held.n_nodes()
   std::vector<unsigned int> held_of_surface;
   unsigned int              n_global = 0;
@@ -112,7 +120,10 @@ private:
 
   void   collect_surface(const mesh::Tearing &tearing);
   void   scale_rows(const RowCoefficients<dim>          &reference,
-                    const std::vector<contact::Tangent> &tangents);
+                    const std::vector<contact::Tangent> &tangents,
+                    double                               modulus);
+  bool   is_displaced(unsigned int i, const RowCoefficients<dim> &reference) const;
+  double stiffness_at(unsigned int surface_node, double modulus) const;
   Copies collect_copies(const mesh::Tearing                        &tearing,
                         const std::map<unsigned int, unsigned int> &rank_of_node) const;
   void   number_node_rows(const Copies               &nodes,
