@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace snug::accuracy {
 namespace {
@@ -335,6 +336,8 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
                                    ? z.displacement
                                    : sum(z.displacement, s + z.loads, all[0].displacement)),
                      1., solver.mesh().communicator());
+      if (!responses[j]->has_estimate())
+        one.data = std::numeric_limits<double>::quiet_NaN();
       result.estimates.responses.push_back(std::move(one));
     }
   return result;

@@ -4,6 +4,7 @@
 #include <snug/base/run_context.h>
 #include <snug/elasticity/cell_point.h>
 #include <snug/faces/face_shape.h>
+#include <snug/geometry/formula.h>
 #include <snug/mesh/refined_cells.h>
 
 #include <deal.II/base/mpi.h>
@@ -202,16 +203,16 @@ std::vector<double> LoadResidual<dim>::works(const Field &v) const
 
 template <int dim>
 std::vector<typename LoadResidual<dim>::Entry>
-LoadResidual<dim>::entries(const std::vector<std::string> &body_names) const
+LoadResidual<dim>::entries(const std::string              &what,
+                           const std::vector<std::string> &body_names) const
 {
   std::vector<Entry> result;
   for (const auto &key : keys)
     {
       const std::string boundary =
         key.second == no_boundary ? "" : mesh.geometry(key.first).boundary_names()[key.second];
-      result.push_back({key.second == no_boundary
-                          ? "'Body force' of " + body_names[key.first]
-                          : "the loads on " + body_names[key.first] + "." + boundary,
+      result.push_back({what + (boundary.empty() ? " in " : " on ") + body_names[key.first] +
+                          (boundary.empty() ? "" : "." + boundary),
                         0., std::vector<double>(mesh.cells().size(), 0.)});
       double size = 0.;
       for (const auto &part : parts)
@@ -258,31 +259,92 @@ std::string percent(const double part)
 /// Maximum share of the volume of a body that lies beyond its interpolated surface.
 const double unseen_part = 0.05;
 
+namespace {
+/// A formula of a model as the loads whose residual shows what the mesh misses of the formula.
 template <int dim>
-Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
-                           const std::vector<state::LoadCase<dim>> &loads,
-                           const std::vector<std::string>          &body_names,
-                           const double                             share)
+struct FormulaLoads
+{
+  std::string          what; ///< see LoadResidual::entries()
+  state::LoadCase<dim> loads;
+};
+
+/// Return a density along the first axis.
+template <int dim>
+std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+along_axis(std::function<double(const dealii::Point<dim> &)> value)
+{
+  return [value = std::move(value)](const dealii::Point<dim> &x) {
+    dealii::Tensor<1, dim> result;
+    result[0] = value(x);
+    return result;
+  };
+}
+
+/// Return all formulas of a model. A formula of a boundary is a traction, and temperatures are body
+/// forces.
+template <int dim>
+std::vector<FormulaLoads<dim>> formulas(const state::Model<dim> &model)
+{
+  std::vector<FormulaLoads<dim>> result;
+  const auto add = [&](const std::string &what, const std::string &load_case) -> auto & {
+    result.push_back({what, {load_case, std::vector<state::BodyLoads<dim>>(model.bodies.size())}});
+    return result.back().loads.bodies;
+  };
+  for (const auto &load_case : model.load_cases)
+    {
+      result.push_back({"the loads", load_case});
+      auto &bodies = add("the temperature", load_case.name);
+      for (unsigned int body = 0; body < bodies.size(); ++body)
+        if (load_case.bodies[body].temperature)
+          bodies[body].body_force = along_axis<dim>(load_case.bodies[body].temperature);
+    }
+  for (const auto &support : model.supports)
+    for (unsigned int c = 0; c < support.values.size(); ++c)
+      if (support.values[c])
+        add("the prescribed displacement", model.load_cases[c].name)[support.body]
+          .boundaries[support.boundary]
+          .traction = along_axis<dim>(support.values[c]);
+  for (const auto &spring : model.springs)
+    if (!spring.place)
+      add("the stiffness of the spring", "")[spring.body].boundaries[spring.boundary].traction =
+        along_axis<dim>(spring.stiffness);
+  for (const auto &pair : model.pairs)
+    if (pair.parameters.has_friction())
+      {
+        const auto formula =
+          std::make_shared<const geometry::Formula<dim>>(pair.name(), pair.parameters.resistance());
+        for (const auto &[body, boundary] : pair.slave.boundaries())
+          add("the friction", "")[body].boundaries[boundary].traction =
+            along_axis<dim>([formula](const auto &x) { return formula->value(x); });
+      }
+  return result;
+}
+} // namespace
+
+template <int dim>
+Unresolved
+unresolved_data(const mesh::BodyMesh<dim> &mesh, const state::Model<dim> &model, const double share)
 {
   Unresolved result;
-  for (const auto &of_case : loads)
+  for (const auto &[what, loads] : formulas(model))
     for (const auto &entry :
-         LoadResidual<dim>(mesh, of_case, mesh.reference_positions(), Sampling::search)
-           .entries(body_names))
+         LoadResidual<dim>(mesh, loads, mesh.reference_positions(), Sampling::search)
+           .entries(what, model.body_names))
       if (entry.missed > share)
         {
           add_cells(mesh, entry.of_cells, entry.missed, share, result);
           result.lines.push_back("the mesh does not resolve " + entry.name + ": " +
-                                 percent(entry.missed) + " of their force is missing" +
-                                 (of_case.name.empty() ? "" : " in load case " + of_case.name));
+                                 percent(entry.missed) + " of its integral is missing" +
+                                 (loads.name.empty() ? "" : " in load case " + loads.name));
         }
   const auto volumes = unseen_volumes(mesh);
   for (unsigned int body = 0; body < volumes.size(); ++body)
     if (volumes[body].missed > unseen_part)
       {
         add_cells(mesh, volumes[body].of_cells, volumes[body].missed, unseen_part, result);
-        result.lines.push_back("the mesh does not resolve the surface of " + body_names[body] +
-                               ": " + percent(volumes[body].missed) + " of the volume is missing");
+        result.lines.push_back("the mesh does not resolve the surface of " +
+                               model.body_names[body] + ": " + percent(volumes[body].missed) +
+                               " of the volume is missing");
       }
   return result;
 }
@@ -293,9 +355,8 @@ Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
   template class LoadResidual<dim>;                                                                \
   template void       add_cells(const mesh::BodyMesh<dim> &, const std::vector<double> &, double,  \
                                 double, Unresolved &);                                             \
-  template Unresolved unresolved_data(const mesh::BodyMesh<dim> &,                                 \
-                                      const std::vector<state::LoadCase<dim>> &,                   \
-                                      const std::vector<std::string> &, double);
+  template Unresolved unresolved_data(const mesh::BodyMesh<dim> &, const state::Model<dim> &,      \
+                                      double);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

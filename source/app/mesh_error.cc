@@ -67,7 +67,9 @@ std::vector<std::string> described(const ShapeProblem<dim>                  &pro
                        error = errors[c].responses[j].second.error();
           const auto unit    = scene::unit_after_number(problem.scene, responses[j].first);
           line << "; " << responses[j].first << " " << value << unit << ", ";
-          if (value != 0.)
+          if (std::isnan(error))
+            line << "not estimated";
+          else if (value != 0.)
             line << 100. * error / std::abs(value) << " %";
           else
             line << error << unit;

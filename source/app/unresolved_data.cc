@@ -8,10 +8,10 @@
 
 namespace snug::app {
 namespace {
-/// Return the part of the loads that the first mesh may miss. Where loads jump, this error
+/// Return the part of formulas that the first mesh may miss. Where formulas jump, this error
 /// decreases irregularly from mesh to mesh; therefore it is made small compared with the targets at
 /// once.
-double missed_loads(const scene::Scene &scene)
+double missed_data(const scene::Scene &scene)
 {
   const double least = 0.002;
   double       part  = 0.05;
@@ -24,7 +24,7 @@ double missed_loads(const scene::Scene &scene)
 }
 } // namespace
 
-/// Refine the first mesh until it resolves the loads and the surfaces of the scene, and warn of
+/// Refine the first mesh until it resolves the formulas and the surfaces of the scene, and warn of
 /// what remains unresolved. States and estimates cannot depend on details without Gauss points and
 /// nodes. Collective.
 template <int dim>
@@ -33,14 +33,10 @@ void Adaptation<dim>::resolve_data()
   const RunContext::Timer timer(context, "setup");
   while (true)
     {
-      const auto               mesh = build_mesh(scene, forest_with(last_refinement), false);
-      auto                     next = last_refinement;
-      std::vector<std::string> names;
-      for (const auto &body : scene.bodies)
-        names.push_back(body.name);
+      const auto mesh  = build_mesh(scene, forest_with(last_refinement), false);
+      auto       next  = last_refinement;
       const auto found = with_file_context(scene, [&]() {
-        return accuracy::unresolved_data(*mesh, build_load_cases(scene, *mesh), names,
-                                         missed_loads(scene));
+        return accuracy::unresolved_data(*mesh, build_model(scene, *mesh), missed_data(scene));
       });
       add_cells(*mesh, last_refinement, found.cells, next);
       if (next != last_refinement && is_affordable(*mesh))

@@ -3,6 +3,7 @@
 #include <snug/geometry/formula.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace snug::contact {
 void ObstacleParameters::declare(Entries &entries)
@@ -51,6 +52,14 @@ void ObstacleParameters::check(const SectionCheck &section) const
   const auto &read = choose(obstacle_table<3>(), shape).entries;
   if (std::find(read.begin(), read.end(), "Formula") != read.end())
     geometry::require_formula(section, "Formula", formula, formula);
+}
+
+bool PairParameters::has_friction() const
+{
+  const char *const text    = resistance().c_str();
+  char             *end     = nullptr;
+  const bool        is_zero = std::strtod(text, &end) == 0. && end != text && *end == '\0';
+  return friction != Friction::none && !is_zero;
 }
 
 void PairParameters::declare(Entries &entries)

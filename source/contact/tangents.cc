@@ -22,7 +22,7 @@ class FrictionFormula
 public:
   explicit FrictionFormula(const NamedPair &pair)
     : is_coulomb(pair.parameters.friction == Friction::Coulomb)
-    , text(is_coulomb ? pair.parameters.friction_coefficient : pair.parameters.friction_bound)
+    , text(pair.parameters.resistance())
     , entry("Pair " + pair.name() + "/" + (is_coulomb ? "Friction coefficient" : "Friction bound"))
     , formula(entry, text)
   {}
@@ -197,7 +197,7 @@ std::vector<dealii::Tensor<1, dim>>
 Contact<dim>::tangent_directions(const std::vector<Row<dim>> &rows) const
 {
   std::vector<dealii::Tensor<1, dim>> result;
-  for (const auto &[row, index] : tangent_places)
+  for (const auto &[row, index, is_held] : tangent_places)
     result.push_back(tangent_direction(frames[row].reference, rows[row].normal, index));
   return result;
 }
@@ -225,7 +225,7 @@ std::vector<Row<dim>> Contact<dim>::tangent_rows(const Field                 &po
   const auto                           in_space = placed.to_space(positions);
   const faces::PointField<dim, double> x(in_space);
   std::vector<Row<dim>>                result;
-  for (const auto &[row, index] : tangent_places)
+  for (const auto &[row, index, is_held] : tangent_places)
     result.push_back(tangent_row(placed.turned(rows[row]), index, frames[row], x));
   return placed.turned_back(std::move(result));
 }
@@ -242,7 +242,7 @@ Contact<dim>::tangent_row_derivatives(const Field                 &positions,
   const auto in_space = placed.to_space(positions), motion = placed.turned(velocity);
   const faces::PointField<dim, faces::Differential<1>> x(in_space, motion);
   std::vector<Row<dim>>                                result;
-  for (const auto &[row, index] : tangent_places)
+  for (const auto &[row, index, is_held] : tangent_places)
     {
       // With the present direction as the reference, the derivative of the frame has no spin.
       auto frame      = frames[row];

@@ -29,6 +29,7 @@ public:
     const auto *const function =
       amount.target<Amount (*)(const state::ContactPoint &, const contact::RowFriction &)>();
     of_pressure = function != nullptr && *function == normal_force;
+    of_reserve  = function != nullptr && *function == shear_reserve;
   }
 
   std::vector<std::string> entries() const override
@@ -42,6 +43,9 @@ public:
   bool reads_pressure() const override { return true; }
 
   bool unbounded_at_edges() const override { return power > integrable_power; }
+
+  /// The reserve jumps to zero between a node that sticks and one that slips.
+  bool has_estimate() const override { return !of_reserve; }
 
   /// Throw if there is no such pair.
   void check(const state::StateSolver<dim> &solver) const override { row_shares(solver, pair, 0); }
@@ -190,6 +194,7 @@ private:
   const double                   power; ///< maximum power of the pressure under an integral
   const AmountOf                 amount;
   bool                           of_pressure; ///< the amount is the normal force
+  bool                           of_reserve;  ///< the amount is the reserve of the friction force
 };
 
 /// Return the sum of factor(pair) times the shares over the pairs with the @p name, or all pairs.

@@ -159,6 +159,9 @@ void check_targets(const Scene &scene, const SectionCheck &section)
     section.require(good, "Target", to_text(targets), allowed);
   };
   require(scene.task != Task::sensitivity, "must be empty for Task = sensitivity");
+  for (const auto &target : targets)
+    require(response::make_response<3>(*response_called(scene, target.first))->has_estimate(),
+            "must not name '" + target.first + "', because its error is not estimated");
   if (scene.task != Task::optimize)
     return;
   const std::string &objective = scene.optimization.objective;

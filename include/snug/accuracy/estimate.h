@@ -49,8 +49,8 @@ struct ResponseEstimate
   /// Add the contributions @p of_cells, times @p factor, to the error of the data. Collective.
   void add_data(const std::vector<double> &of_cells, double factor, MPI_Comm comm);
 
-  /// Return max(|cells + contact|, |cells|/2, |contact|/2) + |reading| + data. The maximum covers
-  /// cells and contact that cancel by chance.
+  /// Return max(|cells + contact|, |cells|/2, |contact|/2) + |reading| + data; NaN for responses
+  /// without an estimate. The maximum covers cells and contact that cancel by chance.
   double error() const;
 };
 

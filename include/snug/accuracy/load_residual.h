@@ -50,8 +50,10 @@ public:
     double              missed;   ///< sum of |r_a| over the sum of |t| dA
     std::vector<double> of_cells; ///< contributions of the cells of this rank
   };
-  /// Return all entries, in the same order on all ranks. Collective.
-  std::vector<Entry> entries(const std::vector<std::string> &body_names) const;
+  /// Return all entries, in the same order on all ranks, named "WHAT on BODY.BOUNDARY" or "WHAT in
+  /// BODY" with @p what, such as "the loads". Collective.
+  std::vector<Entry> entries(const std::string              &what,
+                             const std::vector<std::string> &body_names) const;
 
 private:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
@@ -95,13 +97,12 @@ void add_cells(const mesh::BodyMesh<dim> &mesh,
 /// Return a share as text, like "12 %".
 std::string percent(double part);
 
-/// Return the cells to refine until each load case misses at most the share @p share of each entry
-/// of its loads, and the true surfaces miss at most 5 % of the volumes of the bodies. Collective.
+/// Return the cells to refine until the quadrature of the mesh misses at most the share @p share of
+/// each formula of the model (loads, temperatures, prescribed displacements, springs, friction),
+/// and the true surfaces miss at most 5 % of the volumes of the bodies. Collective.
 template <int dim>
-Unresolved unresolved_data(const mesh::BodyMesh<dim>               &mesh,
-                           const std::vector<state::LoadCase<dim>> &loads,
-                           const std::vector<std::string>          &body_names,
-                           double                                   share);
+Unresolved
+unresolved_data(const mesh::BodyMesh<dim> &mesh, const state::Model<dim> &model, double share);
 } // namespace snug::accuracy
 
 #endif

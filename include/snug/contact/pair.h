@@ -75,13 +75,14 @@ struct PairParameters
   std::string friction_coefficient = "0"; ///< formula in x, y, z; read by Coulomb
   std::string friction_bound       = "0"; ///< formula in x, y, z; read by Tresca [force/length^2]
 
+  /// Return the formula that the friction law reads.
+  const std::string &resistance() const
+  {
+    return friction == Friction::Coulomb ? friction_coefficient : friction_bound;
+  }
   /// Return whether there may be tangential forces: no friction is the same as a coefficient or a
   /// bound of 0.
-  bool has_friction() const
-  {
-    return (friction == Friction::Coulomb && friction_coefficient != "0") ||
-           (friction == Friction::Tresca && friction_bound != "0");
-  }
+  bool has_friction() const;
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;

@@ -96,6 +96,10 @@ public:
   /// accuracy::sharp_edges().
   virtual bool unbounded_at_edges() const { return false; }
 
+  /// Return whether the error of J on a mesh can be estimated from field_derivative() and from the
+  /// forces and areas of rows. It cannot where the state of contacts jumps between nodes.
+  virtual bool has_estimate() const { return true; }
+
   /// Throw an InputError unless the scene contains the body, face, point or pair of the
   /// response. Collective.
   virtual void check(const state::StateSolver<dim> & /*solver*/) const {}

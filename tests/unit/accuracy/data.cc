@@ -68,8 +68,7 @@ TEST(Unresolved, AreTheCellsUnderAStep)
 {
   Problem<2> problem(loaded<2>([](const auto &x) { return x[0] < 0.32 ? 1. : 0.; }));
   const auto unresolved = [&](const double share) {
-    return accuracy::unresolved_data(problem.mesh, problem.model.load_cases,
-                                     problem.model.body_names, share);
+    return accuracy::unresolved_data(problem.mesh, problem.model, share);
   };
   EXPECT_EQ(unresolved(0.05).cells.size(), 1u);
   ASSERT_EQ(unresolved(0.05).lines.size(), 1u);

@@ -57,7 +57,7 @@ void expect_slips(const RoughBoxes<dim> &scene, const bool is_flat)
   double              largest_common = 0.;
   for (unsigned int i = 0; i < tangent_rows.size(); ++i)
     {
-      const auto [row, index] = contact.tangents()[i];
+      const auto [row, index, is_held] = contact.tangents()[i];
       const auto &n           = rows[row].normal;
       EXPECT_EQ(row, i / (dim - 1));
       EXPECT_EQ(index, i % (dim - 1));
