@@ -138,8 +138,8 @@ std::vector<Advice> collect(const AdviceInput<dim> &input)
     advice = revolution(input);
   if (advice.empty())
     advice = symmetry_planes(input);
-  for (const auto &item : unstressed_regions(input))
-    advice.push_back(item);
+  for (const auto &more : {unstressed_regions(input), needless_friction(input)})
+    advice.insert(advice.end(), more.begin(), more.end());
   add_subdomains(input, advice);
   add_locking(input, advice);
   add_fine_mesh(input, advice);

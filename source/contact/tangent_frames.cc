@@ -136,7 +136,7 @@ TangentFrames<dim>::tangents(const unsigned int slave,
     tangential;
   Tangents result{{}, rank_of(movable)};
   auto     of_any_node = free_directions<dim>(pair.held[slave]);
-  for (const auto &[node, c] : row.coefficients)
+  for (const unsigned int node : nodes_at_foot(slave))
     of_any_node += free_directions<dim>(pair.held[node]);
   // A direction that is left out although a node is free there depends on other rows.
   if (rank_of(tangential * of_any_node * tangential) == result.n_free)
@@ -153,10 +153,12 @@ TangentFrames<dim>::tangents(const unsigned int slave,
   return result;
 }
 
-/// Return the nodes with shape functions at the foot of a slave node.
+/// Return the nodes with shape functions at the foot of a slave node; none for obstacles.
 template <int dim>
 std::vector<unsigned int> TangentFrames<dim>::nodes_at_foot(const unsigned int slave) const
 {
+  if (!nearest)
+    return {};
   const auto                found = nearest->closest(pair.positions[slave]);
   const auto               &nodes = pair.surface.faces()[found.face].nodes;
   const auto                shape = pair.shape.at(found.point.xi).value;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Signs of forces, reactions at edges, and nodes beyond the search distance: contact_answers.py,
+"""Signs of forces, reactions at edges, friction where supports hold both sides, and nodes beyond the search distance: contact_answers.py,
 with the program that SNUG names."""
 
 import pathlib
@@ -56,6 +56,45 @@ def round_on_plane(distance):
         {"Pairs": "up.bottom: lo.top", "Search distance": distance}, Dimension=2)
 
 
+FRICTION = {"Friction": "Coulomb", "Friction coefficient": 0.1}
+
+
+def press_fit(cells):
+    """Return a ring pressed into another and pushed along the axis in load steps, there and back.
+    Supports hold both sides of the contact at one end."""
+    steps = {"Load step": "true", "Cases": 4,
+             "Displacement": "inner.bottom: y = -0.004*min(i+1, 3-i)"}
+    around = {"Box cells": f"4, {cells}", "Young's modulus": 210000}
+    return scene(
+        {"inner": {**around, "Box corner": "10, 0", "Box size": "10.0025, 20"},
+         "outer": {**around, "Box corner": "20, 0", "Box size": "10, 20",
+                   "Supports": "bottom: y"}},
+        {"Pairs": "inner.right: outer.left", "Interference": "true", **FRICTION},
+        sections={"Load case fit": {"Displacement": "inner.bottom: y = 0"},
+                  "Load case push": steps, "Response n": {"Quantity": "contact force"},
+                  "Response r": force("reaction", "y", Face="inner.bottom"),
+                  "Response t": force("friction force", "y"),
+                  "Accuracy": {"Estimate": "none"}},
+        Dimension=2, Model="axisymmetric", Load_cases="fit, push", Responses="n, r, t")
+
+
+def dragged(gap):
+    """Return a solid block that slides on another, held along the way at one side of both."""
+    up = "top: z = -0.01, top: y = 0.1, top: x = 0, left: y = 0.1"
+    return scene(
+        {"up": {"Box corner": "0, 0, 1", "Box cells": "3, 3, 3", "Young's modulus": 1000,
+                "Displacement": up},
+         "lo": {"Box cells": "3, 3, 3", "Young's modulus": 1000,
+                "Supports": "bottom: xyz, left: y"}},
+        {"Pairs": "up.bottom: lo.top", "Gap": gap, **FRICTION},
+        sections={"Response n": {"Quantity": "contact force"},
+                  "Response t": force("friction force", "y"), "Response up": {
+                      "Quantity": "reaction", "Component": "y", "Face": "up.top"},
+                  "Response side": force("reaction", "y", Face="up.left"),
+                  "Accuracy": {"Estimate": "none"}},
+        Dimension=3, Responses="n, t, up, side")
+
+
 def main():
     wrong = 0
 
@@ -75,6 +114,19 @@ def main():
     expect("a face has no reaction along axes that it does not hold", values["beside"] == 0.)
     expect("reactions balance the pressure", abs(values["left"] - 3.) < 1e-9)
     expect("reactions balance each other", abs(values["top"] + values["bottom"]) < 1e-9)
+    for cells in (8, 16):
+        cases = solve(press_fit(cells)).summary["load_cases"]
+        for case, sign in zip(cases[1:], (-1, -1, 1, 1)):
+            values = case["state"]["responses"]
+            expect(f"press fit of {cells} cells pushed by {sign}: {values}",
+                   abs(values["r"] - sign * 0.1 * values["n"]) < 1e-5 * values["n"] and
+                   abs(values["r"] + values["t"]) < 1e-5 * values["n"])
+    for gap in ("0", "-0.002"):
+        values = solve(dragged(gap)).state["responses"]
+        expect(f"all nodes of a dragged block slide: {values}",
+               abs(abs(values["t"]) - 0.1 * values["n"]) < 1e-3 * values["n"])
+        expect("reactions balance the friction",
+               abs(values["t"] + values["up"] + values["side"]) < 1e-6 * values["n"])
     for distance, warns in ((0.001, True), (0.1, False)):
         warnings = solve(round_on_plane(distance)).summary["warnings"]
         expect(f"search distance {distance}: {warnings}",

@@ -4,7 +4,7 @@ from runs import scene
 
 from cases import Figure
 from outcomes import ALL, ONE, SOLVERS, Refused, Row, Solved
-from scenes import blocks, energy, even, force, hump, nothing_touches, sinks
+from scenes import blocks, energy, even, force, hump, nothing_touches, sinks, tetrahedra
 
 BOTH = sinks((1, 1), (1000, 1000), (.3, .3))
 
@@ -21,10 +21,11 @@ def squeezed(overlap):
     return overlap / sinks((1, 1), (1000, 1000), (.3, .3))
 
 
-def tight(bodies, pairs, contact=None, obstacles=None, dim=2, **entries):
+def tight(bodies, pairs, contact=None, obstacles=None, dim=2, sections=None, **entries):
     """Return bodies in contact, solved well enough for dense algebra."""
     return scene(bodies, {"Pairs": pairs, **(contact or {})}, obstacles=obstacles,
-                 sections={"Solver": {"Relative tolerance": 1e-9}}, Dimension=dim, **entries)
+                 sections={"Solver": {"Relative tolerance": 1e-9}, **(sections or {})},
+                 Dimension=dim, **entries)
 
 
 FLOOR = {"floor": {"Normal": "0, 1"}}
@@ -249,6 +250,29 @@ def aside(value):
                                   1e-5)]
 
 
+def of_tetrahedra(height, ratio=.3, **entries):
+    """Return the row of a block of tetrahedra on a plane."""
+    body = {"Mesh": "file", "File": "mesh.msh", "Young's modulus": 1000, "Poisson's ratio": ratio,
+            "Supports": "left: x, front: y", "Pressure": "top: 1", **entries}
+    return Row(f"tetrahedra of height {height:g}, Poisson's ratio {ratio:g}",
+               tight({"block": body}, "block.bottom: floor", {}, {"floor": {}}, 3),
+               Solved(force(1, component=2)), SOLVERS if height > .01 else ONE,
+               mesh=lambda: tetrahedra(height))
+
+
+BODIES = [
+    *(of_tetrahedra(height) for height in (1, .1, .01)),
+    *(of_tetrahedra(.1, ratio) for ratio in (.49, .4999)),
+    Row("a slider that passes from one block to the next",
+        tight({"slider": {"Box corner": "-.8, 1", "Box size": ".7, .3", "Box cells": "7, 3",
+                          "Young's modulus": 1000, "Supports": "top: x", "Pressure": "top: 1"},
+               **{name: {"Box corner": f"{x}, 0", "Box cells": "6, 4", "Young's modulus": 1000,
+                         "Supports": "bottom: xy"} for name, x in (("one", -1), ("two", 0))}},
+              "slider.bottom: one.top, slider.bottom: two.top",
+              sections={"Load case move": {"Cases": 9, "Position": "slider: shift .113*(i+1) 0"}},
+              Load_cases="move"), Solved(forces_of_steps(*[.7] * 9)), quick=True),
+]
+
 BACK = "upper.top: y = -.01, upper.top: x = .004*(2 - abs(i - 2))"
 FRICTION = [
     Row("friction at 0.999 of its limit", rough(.3, {"Traction": "top: .2997 0"}),
@@ -282,4 +306,4 @@ FRICTION = [
         Solved(forces_of_steps(0., 0., 0., None, None, None)), ONE, quick=True),
 ]
 
-ROWS = [*FREE, *FEW, *PLACES, *FRICTION]
+ROWS = [*FREE, *FEW, *PLACES, *BODIES, *FRICTION]

@@ -63,6 +63,11 @@ std::vector<Advice> revolution(const AdviceInput<3> &input);
 template <int dim>
 std::vector<Advice> unstressed_regions(const AdviceInput<dim> &input);
 
+/// Return the advice "needless friction" (friction.cc). It solves the states without friction.
+/// Collective.
+template <int dim>
+std::vector<Advice> needless_friction(const AdviceInput<dim> &input);
+
 /// Return all advice on a model, see doc/advice.md. Collective.
 template <int dim>
 std::vector<Advice> collect(const AdviceInput<dim> &input);

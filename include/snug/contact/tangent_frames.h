@@ -22,8 +22,9 @@ public:
   std::vector<bool> rely_on_master(const std::vector<unsigned int> &slaves,
                                    const Row<dim>                  *rows) const;
 
-  /// Frame of a contact row. Its tangents come first that the bodies can follow, and then those
-  /// that supports hold at all nodes of the row. The slip along the latter is prescribed.
+  /// Frame of a contact row. Tangents along which a node can move come first. Then come those along
+  /// which supports hold both the slave node and the nodes opposite to it, where the slip is
+  /// prescribed.
   struct Tangents
   {
     TangentFrame<dim> frame;

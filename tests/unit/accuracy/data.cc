@@ -76,6 +76,31 @@ TEST(Unresolved, AreTheCellsUnderAStep)
   EXPECT_TRUE(unresolved(0.5).cells.empty());
 }
 
+TEST(Unresolved, AreTheCellsUnderAllFormulas)
+{
+  Problem<2> problem(loaded<2>({}));
+  const auto step  = [](const auto &x) { return x[0] < 0.32 ? 1. : 0.; };
+  const auto found = [&](const state::Model<2> &model) {
+    const auto lines = accuracy::unresolved_data(problem.mesh, model, 0.05).lines;
+    return lines.empty() ? "" : lines[0].substr(0, lines[0].find(':'));
+  };
+  const std::string missed = "the mesh does not resolve the ";
+  EXPECT_EQ(found(problem.model), "");
+  auto model = problem.model;
+  model.supports.push_back({0, face_index(1, 1), 0, {step}, ""});
+  EXPECT_EQ(found(model), missed + "prescribed displacement on punch.top");
+  model = problem.model;
+  model.springs.push_back({1, face_index(1, 0), 0, step, {}, "", ""});
+  EXPECT_EQ(found(model), missed + "stiffness of the spring on block.bottom");
+  model                                     = problem.model;
+  model.load_cases[0].bodies[1].temperature = step;
+  EXPECT_EQ(found(model), missed + "temperature in block");
+  model                                    = problem.model;
+  model.pairs[0].parameters.friction       = contact::Friction::Tresca;
+  model.pairs[0].parameters.friction_bound = "if(x < 0.32, 1, 0)";
+  EXPECT_EQ(found(model), missed + "friction on punch.bottom");
+}
+
 namespace {
 /// Return the rough pressure of blocks with 4 cells per edge under a uniform pressure of 10.
 template <int dim>
