@@ -336,8 +336,6 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
                                    ? z.displacement
                                    : sum(z.displacement, s + z.loads, all[0].displacement)),
                      1., solver.mesh().communicator());
-      if (!responses[j]->has_estimate())
-        one.data = std::numeric_limits<double>::quiet_NaN();
       result.estimates.responses.push_back(std::move(one));
     }
   return result;
@@ -369,6 +367,9 @@ Estimates estimate(const state::StateSolver<dim>                      &solver,
       {
         break; // rounding or the maximum of F-mults stopped the solve: no more digits
       }
+  for (unsigned int j = 0; j < responses.size(); ++j)
+    if (!responses[j]->has_estimate())
+      result.estimates.responses[j].data = std::numeric_limits<double>::quiet_NaN();
   return result.estimates;
 }
 

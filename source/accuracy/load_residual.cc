@@ -2,9 +2,9 @@
 #include <snug/accuracy/load_residual.h>
 #include <snug/accuracy/surface_residual.h>
 #include <snug/base/run_context.h>
+#include <snug/contact/pair_geometry.h>
 #include <snug/elasticity/cell_point.h>
 #include <snug/faces/face_shape.h>
-#include <snug/geometry/formula.h>
 #include <snug/mesh/refined_cells.h>
 
 #include <deal.II/base/mpi.h>
@@ -310,13 +310,9 @@ std::vector<FormulaLoads<dim>> formulas(const state::Model<dim> &model)
         along_axis<dim>(spring.stiffness);
   for (const auto &pair : model.pairs)
     if (pair.parameters.has_friction())
-      {
-        const auto formula =
-          std::make_shared<const geometry::Formula<dim>>(pair.name(), pair.parameters.resistance());
-        for (const auto &[body, boundary] : pair.slave.boundaries())
-          add("the friction", "")[body].boundaries[boundary].traction =
-            along_axis<dim>([formula](const auto &x) { return formula->value(x); });
-      }
+      for (const auto &[body, boundary] : pair.slave.boundaries())
+        add("the friction", "")[body].boundaries[boundary].traction =
+          along_axis<dim>(contact::resistance<dim>(pair));
   return result;
 }
 } // namespace

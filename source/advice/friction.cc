@@ -34,10 +34,10 @@ std::vector<Advice> needless_friction(const AdviceInput<dim> &input)
   auto model = input.model();
   for (auto &pair : model.pairs)
     pair.parameters.friction = contact::Friction::none;
-  const auto             &x = input.states[0].positions;
-  state::StateSolver<dim> without(input.mesh(), input.solver.tearing(), model, x,
-                                  input.solver.context());
-  double                  change = 0., f_mults[2] = {0., 0.};
+  const auto                           &x = input.states[0].positions;
+  state::StateSolver<dim>               without(input.mesh(), input.solver.tearing(), model, x,
+                                                input.solver.context());
+  double                                change = 0., f_mults[2] = {0., 0.};
   std::vector<state::ContactState<dim>> states;
   try
     {

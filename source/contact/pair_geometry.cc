@@ -1,5 +1,6 @@
 #include <snug/contact/pair_geometry.h>
 #include <snug/faces/nodal_normals.h>
+#include <snug/geometry/formula.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -121,6 +122,13 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
 }
 
 template <int dim>
+std::function<double(const dealii::Point<dim> &)> resistance(const Pair &pair)
+{
+  return [formula = geometry::Formula<dim>(pair.name(), pair.parameters.resistance())](
+           const dealii::Point<dim> &x) { return formula.value(x); };
+}
+
+template <int dim>
 std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim>        &surface,
                                                    const std::vector<unsigned int> &faces,
                                                    const std::vector<unsigned int> &slaves,
@@ -162,8 +170,9 @@ SearchCriteria<dim>::SearchCriteria(const PairGeometry<dim> &pair)
                                  const mesh::Surface<dim>::Field &);                              \
   template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,          \
                               const Side &);                                                      \
-  template std::vector<double>              node_face_sizes(const mesh::Surface<dim> &,           \
-                                                            const mesh::Surface<dim>::Field &);   \
+  template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                        \
+                                               const mesh::Surface<dim>::Field &);                \
+  template std::function<double(const dealii::Point<dim> &)> resistance(const Pair &);            \
   template std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim> &,         \
                                                               const std::vector<unsigned int> &,  \
                                                               const std::vector<unsigned int> &,  \

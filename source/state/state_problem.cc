@@ -146,19 +146,16 @@ void StateProblem<dim>::glue(const Field &x)
   for (const auto &at : problems)
     rows.push_back(rows_of(*at, x));
   const auto clusters = contact_clusters<dim>(surface.n_nodes(), rows);
-  double     modulus  = 0.;
-  for (const auto &body : model.bodies)
-    for (const auto &material : body.materials)
-      modulus = std::max(modulus, material.youngs_modulus);
-  const auto table = subdomain_table(mesh, tearing, model.body_names);
+  const auto table    = subdomain_table(mesh, tearing, model.body_names);
   for (auto &system : systems)
     system.boundary.clear();
   for (unsigned int i = 0; i < problems.size(); ++i)
     {
       auto &at = *problems[i];
       at.structure.reset(); // refers to the old gluing
-      at.gluing           = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i],
-                                                          at.contact->tangents(), clusters, modulus);
+      at.gluing =
+        std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i],
+                                      at.contact->tangents(), clusters, largest_modulus(model));
       at.structure        = std::make_unique<const feti::DualStructure>(at.gluing->layout(), table,
                                                                         model.feti, factor_cache);
       const auto &contact = *at.contact;

@@ -8,6 +8,7 @@
 #include <snug/geometry/rigid_motion.h>
 
 #include <cmath>
+#include <functional>
 
 namespace snug::contact {
 /// Return the faces of a side in ascending order, so that the order of rows does not depend on the
@@ -69,6 +70,11 @@ struct PairGeometry
   /// Return the mean edge length of the slave faces [length].
   double slave_size() const { return mean_face_size(surface, sides.slave, positions); }
 };
+
+/// Return the coefficient or the bound of the friction of a pair as a function of the reference
+/// position.
+template <int dim>
+std::function<double(const dealii::Point<dim> &)> resistance(const Pair &pair);
 
 /// Return the edge length, as in mean_face_size(), of the largest face at each surface node.
 template <int dim>

@@ -13,6 +13,7 @@
 #include <snug/supports/support.h>
 
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -94,6 +95,17 @@ struct Model
   feti::FetiParameters feti;
   qp::SolverParameters solver;
 };
+
+/// Return the maximum Young's modulus of all bodies [force / length^2].
+template <int dim>
+double largest_modulus(const Model<dim> &model)
+{
+  double result = 0.;
+  for (const auto &body : model.bodies)
+    for (const auto &material : body.materials)
+      result = std::max(result, material.youngs_modulus);
+  return result;
+}
 
 /// Return " in load case 'NAME'", for messages about the position of a load case. The text is empty
 /// if all load cases have one position.

@@ -91,10 +91,10 @@ TEST(Unresolved, AreTheCellsUnderAllFormulas)
   EXPECT_EQ(found(model), missed + "prescribed displacement on punch.top");
   model = problem.model;
   model.springs.push_back({1, face_index(1, 0), 0, step, {}, "", ""});
-  EXPECT_EQ(found(model), missed + "stiffness of the spring on block.bottom");
+  EXPECT_EQ(found(model), missed + "stiffness of the spring on foundation.bottom");
   model                                     = problem.model;
   model.load_cases[0].bodies[1].temperature = step;
-  EXPECT_EQ(found(model), missed + "temperature in block");
+  EXPECT_EQ(found(model), missed + "temperature in foundation");
   model                                    = problem.model;
   model.pairs[0].parameters.friction       = contact::Friction::Tresca;
   model.pairs[0].parameters.friction_bound = "if(x < 0.32, 1, 0)";
