@@ -1,6 +1,7 @@
 #include <snug/base/assertions.h>
 #include <snug/base/errors.h>
 #include <snug/contact/contact.h>
+#include <snug/contact/ends_inside.h>
 #include <snug/faces/nodal_normals.h>
 
 #include <algorithm>
@@ -100,7 +101,9 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
   make_tangents(x, q, paired);
 }
 
-/// Choose the slaves and the methods of the joined pairs. The choices are made once, because a
+/// Choose the slaves and the methods of the joined pairs. A side that ends inside the other one is
+/// the slave, because a face of a slave that the master covers in part shares its force badly among
+/// its nodes. The choices are made once, because a
 /// design that changes which side is finer must not exchange the sides, or the kind of the rows, in
 /// a new contact search.
 template <int dim>
@@ -122,14 +125,27 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
       };
       if (known != of.parts.end() && exchanged[known->pair])
         exchange();
-      const bool may_exchange =
+      bool may_exchange =
         pair.parameters.slave == Slave::finer && !pair.obstacle && known == of.parts.end();
+      chosen.push_back(pair);
+      const auto geometry_of_pair = [&]() {
+        chosen.back() = pair;
+        return geometry(chosen.size() - 1, positions, held);
+      };
+      if (may_exchange)
+        {
+          const bool slave_ends = ends_inside(geometry_of_pair());
+          exchange();
+          const bool master_ends = ends_inside(geometry_of_pair());
+          may_exchange           = slave_ends == master_ends;
+          if (may_exchange || slave_ends)
+            exchange();
+        }
       if (may_exchange && relative_size(surface, positions, pair) < 1. - finer_by)
         exchange();
       matching_of.emplace_back();
-      chosen.push_back(pair);
       if (!pair.obstacle)
-        matching_of.back() = matching<dim>(geometry(chosen.size() - 1, positions, held));
+        matching_of.back() = matching<dim>(geometry_of_pair());
       if (!pair.parameters.method)
         pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
       if (may_exchange && pair.parameters.method == Method::mortar &&

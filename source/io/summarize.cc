@@ -84,6 +84,13 @@ Summary::State summary_part(const state::Reaction<dim> &reaction)
           {"moment", numbers(reaction.moment)}};
 }
 
+Summary::State summary_part(const state::GeometricEffect &effect)
+{
+  return {{"name", effect.body},
+          {"rigid_rotation", effect.rotation},
+          {"large_displacements", effect.of_force()}};
+}
+
 template <typename Part>
 Summary::State array_of(const std::vector<Part> &parts)
 {
@@ -160,7 +167,8 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
            {{"rotation", state.validity.rotation},
             {"strain", state.validity.strain},
             {"slip", state.validity.slip},
-            {"drift", state.validity.drift}}},
+            {"drift", state.validity.drift},
+            {"bodies", array_of(state.validity.geometric)}}},
           {"accuracy", errors}};
 }
 

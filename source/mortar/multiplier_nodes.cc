@@ -9,7 +9,7 @@
 namespace snug::mortar {
 namespace {
 /// Nodes of which less than this fraction is covered on each of their faces are weak.
-const double least_cover = 0.25;
+const double least_cover = 0.5;
 
 /// Surface nodes that own parts of the multiplier function of a node, with their shares.
 using Owners = std::map<unsigned int, double>;

@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/state/contact_patches.h>
+#include <snug/state/geometric_effects.h>
 #include <snug/state/validity_checks.h>
 
 #include <deal.II/base/mpi.h>
@@ -179,6 +180,7 @@ ValidityChecks check_validity(const StateSolver<dim>               &solver,
       result.width = std::min(result.width, patch.width);
   assess_facets(solver, contact_rows, state, result);
   assess_missed_nodes(solver, contact_rows, state, result);
+  result.geometric = geometric_effects(solver, state);
   return result;
 }
 
@@ -201,6 +203,15 @@ std::vector<std::string> warnings(const ValidityChecks &validity)
   if (validity.rotation > large_rotation)
     lines.push_back(
       line("cells rotate by", validity.rotation, " rad", ": small rotations are assumed"));
+  for (const auto &effect : validity.geometric)
+    if (std::abs(effect.of_force()) > large_effect)
+      {
+        std::ostringstream text;
+        text.precision(2);
+        text << "large displacements would change the stiffness of body " << effect.body
+             << " by about " << 100. * effect.of_force() << " %: small displacements are assumed";
+        lines.push_back(text.str());
+      }
   if (validity.strain > large_strain)
     lines.push_back(line("strains are", validity.strain, "", ": small strains are assumed"));
   if (validity.slip > large_slip)

@@ -20,6 +20,9 @@ public:
              const std::vector<unsigned int> &faces,
              const FaceShape<dim>            &shape);
 
+  /// Return whether a surface node is on an outer edge.
+  bool contains(unsigned int node) const { return outer_at_vertex.count(node) > 0; }
+
   /**
    * Return how far x(xi) + @p offset lies beyond the outer edges that contain x(xi), as a fraction
    * of the face's extent in that direction. The distance is measured within the face at right

@@ -79,6 +79,18 @@ struct ContactPoint
 
 /// Quantities that show how far a state leaves the range of the linear model; see
 /// validity_checks.h.
+/// Effect of large displacements on one body, which the linear model leaves out, see
+/// geometric_effects().
+struct GeometricEffect
+{
+  std::string body;
+  double      energy   = 0.; ///< change of the energy over the energy
+  double      rotation = 0.; ///< mean rotation that is left out of it [rad]
+
+  /// Return the factor minus 1 of a force that is proportional to a displacement.
+  double of_force() const { return 1.5 * energy; }
+};
+
 struct ValidityChecks
 {
   double rotation = 0.; ///< maximum over cells [rad]
@@ -95,8 +107,9 @@ struct ValidityChecks
   double displacement = 0.;
   /// slave nodes without a row, because they are beyond the search distance, that penetrate the
   /// master, and the name of a pair with such nodes
-  unsigned int missed = 0;
-  std::string  missed_pair;
+  unsigned int                 missed = 0;
+  std::string                  missed_pair;
+  std::vector<GeometricEffect> geometric; ///< per body
 };
 
 /// Force and moment about a centre. In the plane the moment [force length] has one component, the

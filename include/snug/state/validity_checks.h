@@ -8,6 +8,7 @@ namespace snug::state {
 /// @{
 constexpr double large_rotation = 0.1; ///< [rad]: lengths change by 0.5 %
 constexpr double large_strain   = 0.1;
+constexpr double large_effect   = 0.02;  ///< of geometric_effects() on forces
 constexpr double large_slip     = 0.5;   ///< in faces
 constexpr double large_drift    = 0.5;   ///< in faces
 constexpr double least_width    = 3.;    ///< minimum width of a contact, in faces
