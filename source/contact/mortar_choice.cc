@@ -71,7 +71,7 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
       if (sum(cover.covered) > 0.)
         covers.push_back(cover);
     }
-  multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, pair.positions);
+  multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, shape, pair.positions);
 }
 
 /// Choose the multiplier functions of a face. Return the cover of the face, by these functions.

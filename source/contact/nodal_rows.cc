@@ -50,6 +50,8 @@ public:
     const SearchCriteria<dim>            criteria(pair);
     const PairNormals<dim>               normals(pair);
     const faces::PointField<dim, double> x(pair.positions);
+    const auto                           without_area =
+      faces::nodes_without_area<dim>({surface, pair.sides.slave, pair.shape}, pair.positions);
     for (const Projection<dim> &projection :
          project(surface, pair.sides, pair.shape, pair.positions, normals.values()))
       {
@@ -60,7 +62,7 @@ public:
             !criteria.are_met(slave, distance,
                               master_normal<dim>(projection.masters, normals.values())))
           continue;
-        if (faces::is_without_area(surface, pair.shape.degree(), pair.positions[slave]))
+        if (without_area[slave])
           {
             nodes.zero_area.push_back(slave);
             continue;

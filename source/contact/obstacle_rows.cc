@@ -16,6 +16,8 @@ public:
   {
     const SearchCriteria<dim> criteria(pair);
     std::vector<bool>         visited = pair.taken;
+    const auto                without_area =
+      faces::nodes_without_area<dim>({pair.surface, pair.sides.slave, pair.shape}, pair.positions);
     for (const unsigned int face : pair.sides.slave)
       for (const unsigned int node : pair.surface.faces()[face].nodes)
         {
@@ -28,9 +30,7 @@ public:
           if (!d || !criteria.are_met(node, d->value, -d->gradient))
             continue;
           // A row of a node without an area would hold the node, but show no pressure.
-          const bool has_area =
-            !faces::is_without_area(pair.surface, pair.shape.degree(), pair.positions[node]);
-          (has_area ? nodes.with_rows : nodes.zero_area).push_back(node);
+          (without_area[node] ? nodes.zero_area : nodes.with_rows).push_back(node);
         }
   }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace snug::contact {
 namespace {
@@ -129,25 +130,40 @@ std::function<double(const dealii::Point<dim> &)> resistance(const Pair &pair)
 }
 
 template <int dim>
-std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim>        &surface,
-                                                   const std::vector<unsigned int> &faces,
-                                                   const std::vector<unsigned int> &slaves,
-                                                   const std::vector<unsigned int> &zero_area_nodes)
+std::vector<DependentMultiplier>
+dependent_without_area(const mesh::Surface<dim>        &surface,
+                       const std::vector<unsigned int> &faces,
+                       const std::vector<unsigned int> &slaves,
+                       const std::vector<unsigned int> &zero_area_nodes)
 {
   std::map<unsigned int, unsigned int> rows_of;
   for (unsigned int i = 0; i < slaves.size(); ++i)
     rows_of[slaves[i]] = i;
-  std::vector<DependentMultiplier> result;
+  std::vector<DependentMultiplier>               result;
+  std::map<unsigned int, std::set<unsigned int>> middles; // rows, by corner
+  const std::set<unsigned int> without_area(zero_area_nodes.begin(), zero_area_nodes.end());
   for (const unsigned int f : faces)
-    for (const unsigned int node : zero_area_nodes)
-      {
-        auto nodes = surface.faces()[f].nodes;
-        if (nodes.back() == node)
-          std::reverse(nodes.begin(), nodes.end());
-        if (nodes.front() == node && nodes.size() == 3 && rows_of.count(nodes[1]) > 0 &&
-            rows_of.count(nodes[2]) > 0)
-          result.push_back({node, {{rows_of[nodes[1]], 4. / 3.}, {rows_of[nodes[2]], -1. / 3.}}});
-      }
+    {
+      auto nodes = surface.faces()[f].nodes;
+      if (without_area.count(nodes.back()) > 0)
+        std::reverse(nodes.begin(), nodes.end());
+      if (dim == 2 && without_area.count(nodes.front()) > 0 && nodes.size() == 3 &&
+          rows_of.count(nodes[1]) > 0 && rows_of.count(nodes[2]) > 0)
+        result.push_back(
+          {nodes.front(), {{rows_of[nodes[1]], 4. / 3.}, {rows_of[nodes[2]], -1. / 3.}}});
+      if (dim == 3)
+        for (const unsigned int corner : nodes)
+          if (without_area.count(corner) > 0)
+            for (const unsigned int node : nodes)
+              if (const auto row = rows_of.find(node); row != rows_of.end())
+                middles[corner].insert(row->second);
+    }
+  for (const auto &[corner, rows] : middles)
+    {
+      result.push_back({corner, {}});
+      for (const unsigned int row : rows)
+        result.back().rows.emplace_back(row, 1. / double(rows.size()));
+    }
   return result;
 }
 
@@ -164,20 +180,19 @@ SearchCriteria<dim>::SearchCriteria(const PairGeometry<dim> &pair)
   least_cosine     = std::cos(parameters.largest_angle / 180. * dealii::numbers::PI) - round_off;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                     \
-  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);          \
-  template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &,   \
-                                 const mesh::Surface<dim>::Field &);                              \
-  template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,          \
-                              const Side &);                                                      \
-  template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                        \
-                                               const mesh::Surface<dim>::Field &);                \
-  template std::function<double(const dealii::Point<dim> &)> resistance(const Pair &);            \
-  template std::vector<DependentMultiplier> dependent_on_axis(const mesh::Surface<dim> &,         \
-                                                              const std::vector<unsigned int> &,  \
-                                                              const std::vector<unsigned int> &,  \
-                                                              const std::vector<unsigned int> &); \
-  template struct PairGeometry<dim>;                                                              \
+#define SNUG_INSTANTIATE(dim)                                                                   \
+  template std::vector<unsigned int> faces_of(const mesh::Surface<dim> &, const Side &);        \
+  template double mean_face_size(const mesh::Surface<dim> &, const std::vector<unsigned int> &, \
+                                 const mesh::Surface<dim>::Field &);                            \
+  template double face_height(const mesh::Surface<dim> &, const faces::FaceShape<dim> &,        \
+                              const Side &);                                                    \
+  template std::vector<double> node_face_sizes(const mesh::Surface<dim> &,                      \
+                                               const mesh::Surface<dim>::Field &);              \
+  template std::function<double(const dealii::Point<dim> &)> resistance(const Pair &);          \
+  template std::vector<DependentMultiplier>                  dependent_without_area(            \
+                     const mesh::Surface<dim> &, const std::vector<unsigned int> &,             \
+                     const std::vector<unsigned int> &, const std::vector<unsigned int> &);     \
+  template struct PairGeometry<dim>;                                                            \
   template class SearchCriteria<dim>;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

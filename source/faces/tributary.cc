@@ -3,6 +3,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace snug::faces {
@@ -41,6 +42,48 @@ void for_each_part(const mesh::Surface<dim>      &surface,
     }
 }
 } // namespace
+
+namespace {
+/// Return the corner of a quadratic triangle that a face is a part of: the vertex opposite to the
+/// middle of the triangle, where the shape functions of the corners are -1/9 and those of the
+/// middles of edges are 4/9. Return n_nodes() for other faces.
+template <int dim>
+unsigned int triangle_corner(const mesh::Surface<dim> &surface, const unsigned int face)
+{
+  const auto &nodes = surface.faces()[face].nodes;
+  if (dim == 3 && nodes.size() == 9)
+    for (const unsigned int middle : {0, 2, 6, 8})
+      {
+        const auto &masters      = surface.masters(nodes[middle]);
+        const auto  is_of_corner = [](const auto &master) {
+          return std::abs(master.second + 1. / 9.) < 1e-10;
+        };
+        if (masters.size() == 6 && std::count_if(masters.begin(), masters.end(), is_of_corner) == 3)
+          return nodes[8 - middle];
+      }
+  return surface.n_nodes();
+}
+} // namespace
+
+template <int dim>
+std::vector<bool> nodes_without_area(const TributaryFaces<dim>                &of,
+                                     const typename mesh::Surface<dim>::Field &positions)
+{
+  const bool        has_axis = of.surface.idealization().is_axisymmetric();
+  std::vector<bool> result(of.surface.n_nodes(), false), has_area = result;
+  for (const unsigned int face : of.faces)
+    {
+      const unsigned int corner = triangle_corner(of.surface, face);
+      for (const unsigned int node : of.surface.faces()[face].nodes)
+        {
+          const bool is_on_axis = has_axis && of.shape.degree() == 2 && positions[node][0] == 0.;
+          (node == corner || is_on_axis ? result : has_area)[node] = true;
+        }
+    }
+  for (unsigned int node = 0; node < result.size(); ++node)
+    result[node] = result[node] && !has_area[node];
+  return result;
+}
 
 template <int dim, typename Number>
 std::vector<Number> tributary_areas(const TributaryFaces<dim>     &of,
@@ -122,6 +165,8 @@ void add_tributary_gradient(const TributaryFaces<dim>                &of,
 #define SNUG_INSTANTIATE(dim)                                                            \
   SNUG_INSTANTIATE_NUMBER(dim, double)                                                   \
   SNUG_INSTANTIATE_NUMBER(dim, Differential<1>)                                          \
+  template std::vector<bool>   nodes_without_area(const TributaryFaces<dim> &,           \
+                                                  const mesh::Surface<dim>::Field &);    \
   template std::vector<double> shape_integrals(const mesh::Surface<dim> &, unsigned int, \
                                                const FaceShape<dim> &,                   \
                                                const mesh::Surface<dim>::Field &);       \

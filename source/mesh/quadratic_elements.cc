@@ -115,29 +115,6 @@ std::vector<Weights> cell_weights(const geometry::ElementPart<dim> &part)
   return result;
 }
 
-/// Return the vertices of the faces of boundaries that have samples of the true surface.
-template <int dim>
-std::vector<unsigned int> sampled_vertices(const Forest<dim> &forest)
-{
-  const auto               &coarse = forest.coarse();
-  std::vector<unsigned int> result;
-  for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
-    {
-      const auto &names  = coarse.geometries[body]->boundary_names();
-      const auto &wanted = forest.bodies()[body].sampled_boundaries;
-      for (unsigned int cell = coarse.first_cell[body]; cell < coarse.first_cell[body + 1]; ++cell)
-        for (const unsigned int f : dealii::GeometryInfo<dim>::face_indices())
-          {
-            const auto face  = geometry::face_of<dim>(coarse.cells[cell].vertices, f);
-            const auto found = coarse.boundary.find(geometry::sorted(face));
-            if (found != coarse.boundary.end() &&
-                std::find(wanted.begin(), wanted.end(), names[found->second]) != wanted.end())
-              result.insert(result.end(), face.begin(), face.end());
-          }
-    }
-  return result;
-}
-
 /// Return the vertex in the middle of the edge, the face or the cell inside of which a node lies.
 /// The edge, the face or the whole element continues in other cells of the element.
 template <int dim>
@@ -233,8 +210,6 @@ void QuadraticElements<dim>::mark(const Forest<dim> &forest)
     if (parts[cell].element != no_element && !is_free[parts[cell].element])
       for (const unsigned int vertex : vertices[cell])
         is_hanging[vertex] = true;
-  for (const unsigned int vertex : sampled_vertices(forest))
-    is_hanging[vertex] = false;
 }
 
 template <int dim>

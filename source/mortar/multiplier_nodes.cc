@@ -22,8 +22,9 @@ public:
 
   MultiplierChoice(const mesh::Surface<dim>     &surface,
                    const std::vector<FaceCover> &covers,
+                   std::vector<bool>             without_area,
                    const Field                  &positions)
-    : surface(surface), positions(positions)
+    : surface(surface), without_area(std::move(without_area)), positions(positions)
   {
     collect(covers);
     set_order(covers);
@@ -110,6 +111,7 @@ private:
   };
 
   const mesh::Surface<dim>         &surface;
+  const std::vector<bool>           without_area; ///< per surface node
   const Field                      &positions;
   std::vector<unsigned int>         order; ///< candidates in the order of set_order()
   std::map<unsigned int, Candidate> candidates;
@@ -129,9 +131,8 @@ private:
   {
     for (const FaceCover &cover : covers)
       {
-        const auto        &nodes  = surface.faces()[cover.face].nodes;
-        const unsigned int degree = nodes.size() == 1u << (dim - 1) ? 1 : 2;
-        Owners             covered, whole;
+        const auto &nodes = surface.faces()[cover.face].nodes;
+        Owners      covered, whole;
         for (unsigned int k = 0; k < nodes.size(); ++k)
           for (const auto &master : masters(nodes[k]))
             {
@@ -145,7 +146,7 @@ private:
             // node is judged by the sum over its faces alone.
             Candidate   &candidate = candidates[node.first];
             const double most      = whole[node.first];
-            candidate.without_area = faces::is_without_area(surface, degree, positions[node.first]);
+            candidate.without_area = without_area[node.first];
             candidate.covered += node.second;
             candidate.largest_whole = std::max(candidate.largest_whole, most);
             if (most > 0.)
@@ -242,9 +243,15 @@ template <int dim>
 MultiplierNodes choose_multiplier_nodes(const mesh::Surface<dim>                 &surface,
                                         const std::vector<FaceCover>             &covers,
                                         const std::vector<bool>                  &held,
+                                        const faces::FaceShape<dim>              &shape,
                                         const typename mesh::Surface<dim>::Field &positions)
 {
-  MultiplierChoice<dim> choice(surface, covers, positions);
+  std::vector<unsigned int> faces;
+  for (const FaceCover &cover : covers)
+    faces.push_back(cover.face);
+  MultiplierChoice<dim> choice(surface, covers,
+                               faces::nodes_without_area<dim>({surface, faces, shape}, positions),
+                               positions);
   choice.choose(held);
   return choice.result();
 }
@@ -253,6 +260,7 @@ MultiplierNodes choose_multiplier_nodes(const mesh::Surface<dim>                
   template MultiplierNodes choose_multiplier_nodes(const mesh::Surface<dim> &,     \
                                                    const std::vector<FaceCover> &, \
                                                    const std::vector<bool> &,      \
+                                                   const faces::FaceShape<dim> &,  \
                                                    const mesh::Surface<dim>::Field &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -10,7 +10,7 @@
 
 namespace snug::contact {
 /// Slave nodes of a pair: nodes with rows, and nodes without rows that lie opposite to the master
-/// with zero tributary area, as on the axis of revolution.
+/// with zero tributary area, see faces::nodes_without_area().
 struct SlaveNodes
 {
   std::vector<unsigned int> with_rows, zero_area;
@@ -46,7 +46,7 @@ public:
 
   std::vector<DependentMultiplier> dependent_multipliers() const override
   {
-    return dependent_on_axis(surface, sides.slave, nodes.with_rows, nodes.zero_area);
+    return dependent_without_area(surface, sides.slave, nodes.with_rows, nodes.zero_area);
   }
 
   std::vector<Row<dim>> rows(const Field &positions) const override

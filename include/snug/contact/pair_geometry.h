@@ -81,16 +81,19 @@ template <int dim>
 std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &surface,
                                     const typename mesh::Surface<dim>::Field &positions);
 
-/// Return the slave nodes on the axis of revolution without an area, with the rows of other nodes
-/// that act for them. The parabola through the other two nodes of the face that has slope 0 on the
-/// axis has the value (4 p_1 - p_2) / 3 there. @p slaves are the nodes of the rows, and @p
-/// zero_area_nodes are the nodes without an area.
+/**
+ * Return the slave nodes without an area, with the rows of other nodes that act for them. @p slaves
+ * are the nodes of the rows, and @p zero_area_nodes are the nodes without an area.
+ * - On the axis of revolution the parabola through the other two nodes of the face that has slope 0
+ *   on the axis has the value (4 p_1 - p_2) / 3.
+ * - Corners of quadratic triangles take the mean of the middles of the edges at the corner.
+ */
 template <int dim>
 std::vector<DependentMultiplier>
-dependent_on_axis(const mesh::Surface<dim>        &surface,
-                  const std::vector<unsigned int> &faces,
-                  const std::vector<unsigned int> &slaves,
-                  const std::vector<unsigned int> &zero_area_nodes);
+dependent_without_area(const mesh::Surface<dim>        &surface,
+                       const std::vector<unsigned int> &faces,
+                       const std::vector<unsigned int> &slaves,
+                       const std::vector<unsigned int> &zero_area_nodes);
 
 /// This class checks whether slave nodes and their opposite points on the master are close enough
 /// and face each other.

@@ -14,16 +14,16 @@ struct TributaryFaces
   const FaceShape<dim>            &shape;
 };
 
-/// Return whether the area of a node is zero except for curvature. For corner nodes of degree 2 on
-/// the axis of revolution, int N r dr = 0. A pressure causes no force there, and a force causes no
-/// pressure.
+/**
+ * Return for each surface node whether its area over some faces is zero except for curvature. A
+ * pressure causes no force there, and a force causes no pressure. Such nodes are
+ * - corner nodes of degree 2 on the axis of revolution, where int N r dr = 0;
+ * - corners of triangles with quadratic functions, int lambda (2 lambda - 1) dA = 0, on faces that
+ *   were split into three cells, see mesh::QuadraticElements.
+ */
 template <int dim>
-bool is_without_area(const mesh::Surface<dim>     &surface,
-                     unsigned int                  degree,
-                     const dealii::Tensor<1, dim> &position)
-{
-  return surface.idealization().is_axisymmetric() && degree == 2 && position[0] == 0.;
-}
+std::vector<bool> nodes_without_area(const TributaryFaces<dim>                &of,
+                                     const typename mesh::Surface<dim>::Field &positions);
 
 /**
  * Return the tributary area of each surface node over some faces at @p positions [length^2]. The

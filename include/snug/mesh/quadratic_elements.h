@@ -30,8 +30,7 @@ namespace snug::mesh {
  *
  * An element whose cells were refined, and all elements that share an edge with it, keep all nodes
  * of their cells, except nodes on faces and edges of constrained elements. Such functions are
- * continuous, too. Boundaries with samples of the true surface (contact, normal supports and shaped
- * faces) keep all nodes as well.
+ * continuous, too.
  */
 template <int dim>
 class QuadraticElements

@@ -1,7 +1,7 @@
 #ifndef snug_mortar_multiplier_nodes_h
 #define snug_mortar_multiplier_nodes_h
 
-#include <snug/mesh/surface.h>
+#include <snug/faces/face_shape.h>
 
 namespace snug::mortar {
 /// Integrals of the shape functions of a slave face over its part opposite to the master side, and
@@ -20,7 +20,7 @@ struct FaceCover
  * - Nodes that are held in the normal direction have no displacement on which the row could act.
  *   They give their functions to the nearest nodes that are not held (Wohlmuth, SIAM J. Numer.
  *   Anal. 38, 2000, for corners).
- * - Nodes with less than a quarter of the possible cover on each of their faces give their
+ * - Nodes with less than half of the possible cover on each of their faces give their
  *   functions to the nearest better covered nodes, whose rows their own rows would almost copy.
  *
  * Where all nodes are badly covered, the best covered node keeps its multiplier. Held nodes without
@@ -39,11 +39,13 @@ struct MultiplierNodes
 };
 
 /// Return the multiplier nodes of the slave faces with @p covers, without nodes that are not
-/// covered at all. @p held and @p positions are given per surface node.
+/// covered at all and nodes without an area (faces::nodes_without_area()). @p held and @p positions
+/// are given per surface node.
 template <int dim>
 MultiplierNodes choose_multiplier_nodes(const mesh::Surface<dim>                 &surface,
                                         const std::vector<FaceCover>             &covers,
                                         const std::vector<bool>                  &held,
+                                        const faces::FaceShape<dim>              &shape,
                                         const typename mesh::Surface<dim>::Field &positions);
 } // namespace snug::mortar
 
