@@ -125,8 +125,9 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
 template <int dim>
 std::function<double(const dealii::Point<dim> &)> resistance(const Pair &pair)
 {
-  return [formula = geometry::Formula<dim>(pair.name(), pair.parameters.resistance())](
-           const dealii::Point<dim> &x) { return formula.value(x); };
+  const auto formula =
+    std::make_shared<const geometry::Formula<dim>>(pair.name(), pair.parameters.resistance());
+  return [formula](const dealii::Point<dim> &x) { return formula->value(x); };
 }
 
 template <int dim>
