@@ -250,6 +250,10 @@ void Results<dim>::add_last(const double                  time,
   const auto &errors = last_errors;
   draw(time, states, shape_gradient, errors);
   export_meshes(states.front());
+  not_valid.clear();
+  for (const auto &state : states)
+    if (not_valid.empty())
+      not_valid = state::why_not_valid(state.validity);
   // A new contact search may follow before the summary is written.
   count_rows();
   const auto summarized = [&](const unsigned int c) {
@@ -351,6 +355,10 @@ void Results<dim>::write_summary()
     if (context.rank() == 0)
       summary.write(path("summary.json"));
   });
+  if (!not_valid.empty() && !problem->scene.accept_large_displacements)
+    throw SolveError("the result is not valid: " + not_valid +
+                     ", but small displacements are assumed; 'Accept large displacements' = true "
+                     "accepts it");
 }
 
 template class Results<2>;

@@ -35,6 +35,10 @@ void declare_general(Entries &entries, Scene &scene)
     "Thickness", scene.thickness, positive(),
     "The thickness to which forces, energies and volumes of plane strain and plane stress "
     "models refer. Units: length.");
+  entries.add("Accept large displacements", scene.accept_large_displacements,
+              "Whether a run succeeds although large displacements would change its result: a "
+              "stiffness by more than 20 %, or rotations of more than 0.5 rad. If not, the results "
+              "are written, and the exit status is 3.");
   entries.add("Units", scene.units, allowed("a list 'length, force'"),
               "The names of the units of length and force, for the log, summary.json and pictures: "
               "'mm, N' gives stresses in MPa. Numbers are never converted. An empty list means "

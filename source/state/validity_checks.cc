@@ -197,21 +197,44 @@ std::string facet_warning(const ValidityChecks &validity)
   return text.str();
 }
 
+namespace {
+/// Return the body with the maximum effect of large displacements.
+GeometricEffect largest_effect(const ValidityChecks &validity)
+{
+  GeometricEffect result;
+  for (const auto &effect : validity.geometric)
+    if (std::abs(effect.of_force()) > std::abs(result.of_force()))
+      result = effect;
+  return result;
+}
+
+std::string line(const GeometricEffect &effect)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << "large displacements would change the stiffness of body " << effect.body << " by about "
+       << 100. * effect.of_force() << " %";
+  return text.str();
+}
+} // namespace
+
+std::string why_not_valid(const ValidityChecks &validity)
+{
+  const auto effect = largest_effect(validity);
+  if (std::abs(effect.of_force()) > wrong_effect)
+    return line(effect);
+  return validity.rotation > wrong_rotation ? line("cells rotate by", validity.rotation, " rad", "")
+                                            : "";
+}
+
 std::vector<std::string> warnings(const ValidityChecks &validity)
 {
   std::vector<std::string> lines;
   if (validity.rotation > large_rotation)
     lines.push_back(
       line("cells rotate by", validity.rotation, " rad", ": small rotations are assumed"));
-  for (const auto &effect : validity.geometric)
-    if (std::abs(effect.of_force()) > large_effect)
-      {
-        std::ostringstream text;
-        text.precision(2);
-        text << "large displacements would change the stiffness of body " << effect.body
-             << " by about " << 100. * effect.of_force() << " %: small displacements are assumed";
-        lines.push_back(text.str());
-      }
+  if (const auto effect = largest_effect(validity); std::abs(effect.of_force()) > large_effect)
+    lines.push_back(line(effect) + ": small displacements are assumed");
   if (validity.strain > large_strain)
     lines.push_back(line("strains are", validity.strain, "", ": small strains are assumed"));
   if (validity.slip > large_slip)

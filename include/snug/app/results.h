@@ -84,7 +84,8 @@ public:
   response_values(const state::ContactState<dim> &state) const;
 
   /// Fill in program, mesh, work and times and write summary.json.
-  /// Collective.
+  /// Collective. @throws SolveError if large displacements make the result wrong and the scene does
+  /// not accept them.
   void write_summary();
 
   /// Return the path of the file @p name in the output directory.
@@ -124,10 +125,11 @@ private:
     io::ContactOutput<dim> contact;
   };
 
-  const ShapeProblem<dim>        *problem;
-  std::vector<Pictures>           pictures;   ///< per load case
-  double                          drawn = 0.; ///< the time drawn last
-  std::vector<std::string>        warnings;
+  const ShapeProblem<dim> *problem;
+  std::vector<Pictures>    pictures;   ///< per load case
+  double                   drawn = 0.; ///< the time drawn last
+  std::vector<std::string> warnings;
+  std::string              not_valid; ///< why the states of add_last() are not valid, or empty
   std::vector<io::Summary::State> first_states; ///< per load case
   std::vector<MeshError>          last_errors;  ///< of add_last()
   /// numbers_of_nodes() of the mesh of the problem, after the first call

@@ -100,6 +100,8 @@ struct Scene
   /// empty: one load case, with the loads of the bodies alone
   std::vector<LoadCaseParameters> load_cases;
   unsigned int                    subdomains = 0; ///< number over all ranks; 0: by size
+  /// whether a run succeeds although large displacements change its result much
+  bool accept_large_displacements = false;
   /// whether the linear problem on the final active set is solved from zero too
   bool report_linear_reference = false;
 

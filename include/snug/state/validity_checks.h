@@ -8,6 +8,8 @@ namespace snug::state {
 /// @{
 constexpr double large_rotation = 0.1; ///< [rad]: lengths change by 0.5 %
 constexpr double large_strain   = 0.1;
+constexpr double wrong_rotation = 0.5;   ///< [rad]: lengths change by 12 %
+constexpr double wrong_effect   = 0.2;   ///< of geometric_effects() on forces
 constexpr double large_effect   = 0.02;  ///< of geometric_effects() on forces
 constexpr double large_slip     = 0.5;   ///< in faces
 constexpr double large_drift    = 0.5;   ///< in faces
@@ -43,6 +45,9 @@ bool is_at_rest(const ContactState<dim> &state)
 
 /// Return one line for each number beyond its limit.
 std::vector<std::string> warnings(const ValidityChecks &validity);
+
+/// Return why large displacements make a result wrong; empty if they do not.
+std::string why_not_valid(const ValidityChecks &validity);
 
 /// Return the line about facets among the warnings; empty if the facets are below their limit.
 std::string facet_warning(const ValidityChecks &validity);
