@@ -1,8 +1,10 @@
 #include <snug/base/shared_work.h>
 #include <snug/contact/mortar_rows.h>
 #include <snug/contact/opposite_faces.h>
+#include <snug/faces/quadratic_triangle.h>
 #include <snug/faces/tributary.h>
 
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -17,6 +19,31 @@ const double uncovered_edge = 0.01;
 
 /// A node is held if its supports leave less than this fraction of its normal free.
 const double held_part = 0.1;
+
+/// Return FaceCover::functions. The function of a hanging node belongs to its masters in the
+/// displacement, and so in the rows.
+template <int dim>
+std::vector<std::vector<std::pair<unsigned int, double>>>
+functions_of_nodes(const mesh::Surface<dim> &surface, const unsigned int face)
+{
+  const auto triangle = faces::quadratic_triangle(surface, face);
+  std::vector<std::vector<std::pair<unsigned int, double>>> result;
+  for (const unsigned int node : surface.faces()[face].nodes)
+    {
+      result.emplace_back();
+      if (triangle)
+        {
+          const auto values = triangle->linear_functions(surface, node);
+          for (unsigned int k = 0; k < 3; ++k)
+            result.back().emplace_back(triangle->middles[k], values[k]);
+        }
+      else if (surface.masters(node).empty())
+        result.back().emplace_back(node, 1.);
+      else
+        result.back().assign(surface.masters(node).begin(), surface.masters(node).end());
+    }
+  return result;
+}
 
 double sum(const std::vector<double> &values)
 {
@@ -38,6 +65,7 @@ MortarRows<dim>::MortarRows(const PairGeometry<dim> &pair)
     if (!opposite[i].empty())
       faces.push_back({sides.slave[i], opposite[i], {}});
   choose_multipliers(pair);
+  set_shares();
   collect_row_nodes();
   leave_out_far_rows(pair);
 }
@@ -74,6 +102,40 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
   multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, shape, pair.positions);
 }
 
+/// Set the shares of the functions of all faces. On a third of a quadratic triangle, the
+/// multipliers of the middles of edges have the linear functions of the triangle. Its corners have
+/// no row and show the mean of the adjacent middles.
+template <int dim>
+void MortarRows<dim>::set_shares()
+{
+  std::map<unsigned int, std::set<unsigned int>> middles; // by corner
+  for (SlaveFace &face : faces)
+    {
+      face.shares.clear();
+      for (const auto &functions : functions_of_nodes(surface, face.face))
+        {
+          std::map<unsigned int, double> shares;
+          for (const auto &[node, weight] : functions)
+            for (const auto &[row, share] : multipliers.shares[node])
+              shares[row] += weight * share;
+          face.shares.emplace_back(shares.begin(), shares.end());
+        }
+      if (const auto triangle = faces::quadratic_triangle(surface, face.face))
+        middles[triangle->corners[0]].insert({triangle->middles[1], triangle->middles[2]});
+    }
+  for (const auto &[corner, of_corner] : middles)
+    {
+      // A corner that is on other faces, too, has a row of its own.
+      if (!multipliers.shares[corner].empty())
+        continue;
+      std::map<unsigned int, double> shares;
+      for (const unsigned int middle : of_corner)
+        for (const auto &[row, share] : multipliers.shares[middle])
+          shares[row] += share / double(of_corner.size());
+      multipliers.shares[corner].assign(shares.begin(), shares.end());
+    }
+}
+
 /// Choose the multiplier functions of a face. Return the cover of the face, by these functions.
 template <int dim>
 mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                           &face,
@@ -82,10 +144,12 @@ mortar::FaceCover MortarRows<dim>::choose_functions(SlaveFace                   
                                                     const Field &positions) const
 {
   mortar::FaceCover cover = {face.face, of_nodes.slave,
-                             faces::shape_integrals(surface, face.face, shape, positions)};
+                             faces::shape_integrals(surface, face.face, shape, positions),
+                             functions_of_nodes(surface, face.face)};
   // The Gram matrix of shape functions over a sliver of a face is nearly singular. Its inverse
   // would give multiplier functions with large values of both signs.
-  if (sum(cover.covered) < least_biorthogonal_cover * sum(cover.whole))
+  if (sum(cover.covered) < least_biorthogonal_cover * sum(cover.whole) ||
+      faces::quadratic_triangle(surface, face.face))
     {
       face.functions.biorthogonal = false;
       return cover;
@@ -124,15 +188,15 @@ void MortarRows<dim>::collect_row_nodes()
           const auto &of_face = surface.faces()[master].nodes;
           masters.insert(masters.end(), of_face.begin(), of_face.end());
         }
-      for (const unsigned int node : nodes)
-        for (const auto &share : multipliers.shares[node])
+      for (unsigned int j = 0; j < nodes.size(); ++j)
+        for (const auto &share : face.shares[j])
           {
             auto &row = reached[share.first];
             row.insert(masters.begin(), masters.end());
             // With int psi_j N_l = 0 for l != j, the row contains only the node itself of the slave
             // side.
             if (face.functions.are_nodal())
-              row.insert(node);
+              row.insert(nodes[j]);
             else
               row.insert(nodes.begin(), nodes.end());
           }
@@ -180,6 +244,7 @@ void MortarRows<dim>::leave_out_far_rows(const PairGeometry<dim> &pair)
           kept.emplace_back(index[share.first], share.second);
       shares = kept;
     }
+  set_shares();
 }
 
 template MortarRows<2>::MortarRows(const PairGeometry<2> &);

@@ -7,6 +7,7 @@
 #include <snug/mortar/moment_correction.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace snug::contact {
 template <int dim>
@@ -65,7 +66,7 @@ void MortarRows<dim>::for_each_part(const FacePart<Number> &part, Sums &sums, co
   // Add int psi_j N at one node of a face to the coefficient and to the gap.
   const auto add_node = [&](unsigned int j, unsigned int node, const Number &integral) {
     const dealii::Tensor<1, dim, Number> place = part.x[node] - part.origin;
-    for (const auto &[row, share] : multipliers.shares[nodes[j]])
+    for (const auto &[row, share] : face.shares[j])
       {
         auto        &sum    = sums[row];
         const Number shared = share * integral;
@@ -80,7 +81,7 @@ void MortarRows<dim>::for_each_part(const FacePart<Number> &part, Sums &sums, co
   };
   for (unsigned int j = 0; j < nodes.size(); ++j)
     {
-      for (const auto &[row, share] : multipliers.shares[nodes[j]])
+      for (const auto &[row, share] : face.shares[j])
         {
           add(share * coupling.multiplier[j], sums[row].area);
           for (int d = 0; d < dim; ++d)
@@ -96,7 +97,7 @@ void MortarRows<dim>::for_each_part(const FacePart<Number> &part, Sums &sums, co
           for (unsigned int k = 0; k < master.size(); ++k)
             {
               add_node(j, master[k], -coupling.multiplier_master[f](j, k));
-              for (const auto &share : multipliers.shares[nodes[j]])
+              for (const auto &share : face.shares[j])
                 for_each_place(share.first, master[k], [&](unsigned int place, double weight) {
                   // Absolute values are needed, because weights and shares of hanging nodes of
                   // degree 2 may be negative.
@@ -120,11 +121,15 @@ MortarRows<dim>::row_sums(const Points<Number> &x, const Points<Number> &n) cons
   for (unsigned int f = 0; f < faces.size(); ++f)
     for_each_part(FacePart<Number>{faces[f], parts[f], x}, sums,
                   [](const Number &number, Number &entry) { entry += number; });
-  for (const auto &sum : sums)
+  for (unsigned int i = 0; i < sums.size(); ++i)
     // The area must be positive, because the row is divided by it.
-    if (!(faces::value_of(sum.area) > 0.))
-      throw TangledMesh("the master side has moved away from contact "
-                        "nodes that it was opposite to");
+    if (!(faces::value_of(sums[i].area) > 0.))
+      {
+        std::ostringstream place;
+        place << x.values()[multipliers.nodes[i]];
+        throw TangledMesh("the master side has moved away from the contact node at (" +
+                          place.str() + ") that it was opposite to");
+      }
   return sums;
 }
 
@@ -314,8 +319,7 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
 {
   const auto &nodes = surface.faces()[face.face].nodes;
   // Skip open faces, which are most of the slave side, because cutting segments is expensive.
-  const bool counts = std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
-    const auto &shares = multipliers.shares[node];
+  const bool counts = std::any_of(face.shares.begin(), face.shares.end(), [&](const auto &shares) {
     return std::any_of(shares.begin(), shares.end(), [&](const auto &share) {
       const auto &slope = slopes[share.first];
       return slope.area != 0. || slope.offset.norm_square() > 0.;

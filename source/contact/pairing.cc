@@ -144,10 +144,17 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
       if (may_exchange && relative_size(surface, positions, pair) < 1. - finer_by)
         exchange();
       matching_of.emplace_back();
+      bool matches = true; // the nodes of both sides
       if (!pair.obstacle)
-        matching_of.back() = matching<dim>(geometry_of_pair());
+        {
+          exchange();
+          matches = matching<dim>(geometry_of_pair()).complete();
+          exchange();
+          matching_of.back() = matching<dim>(geometry_of_pair());
+          matches            = matches && matching_of.back().complete();
+        }
       if (!pair.parameters.method)
-        pair.parameters.method = matching_of.back().complete() ? Method::nodal : Method::mortar;
+        pair.parameters.method = matches ? Method::nodal : Method::mortar;
       if (may_exchange && pair.parameters.method == Method::mortar &&
           prefers_coarse_slave(relative_size(surface, positions, pair), pair.modulus_ratio))
         exchange();

@@ -1,9 +1,9 @@
 #include <snug/base/assertions.h>
+#include <snug/faces/quadratic_triangle.h>
 #include <snug/faces/tributary.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace snug::faces {
@@ -43,28 +43,6 @@ void for_each_part(const mesh::Surface<dim>      &surface,
 }
 } // namespace
 
-namespace {
-/// Return the corner of a quadratic triangle that a face is a part of: the vertex opposite to the
-/// middle of the triangle, where the shape functions of the corners are -1/9 and those of the
-/// middles of edges are 4/9. Return n_nodes() for other faces.
-template <int dim>
-unsigned int triangle_corner(const mesh::Surface<dim> &surface, const unsigned int face)
-{
-  const auto &nodes = surface.faces()[face].nodes;
-  if (dim == 3 && nodes.size() == 9)
-    for (const unsigned int middle : {0, 2, 6, 8})
-      {
-        const auto &masters      = surface.masters(nodes[middle]);
-        const auto  is_of_corner = [](const auto &master) {
-          return std::abs(master.second + 1. / 9.) < 1e-10;
-        };
-        if (masters.size() == 6 && std::count_if(masters.begin(), masters.end(), is_of_corner) == 3)
-          return nodes[8 - middle];
-      }
-  return surface.n_nodes();
-}
-} // namespace
-
 template <int dim>
 std::vector<bool> nodes_without_area(const TributaryFaces<dim>                &of,
                                      const typename mesh::Surface<dim>::Field &positions)
@@ -73,11 +51,12 @@ std::vector<bool> nodes_without_area(const TributaryFaces<dim>                &o
   std::vector<bool> result(of.surface.n_nodes(), false), has_area = result;
   for (const unsigned int face : of.faces)
     {
-      const unsigned int corner = triangle_corner(of.surface, face);
+      const auto triangle = quadratic_triangle(of.surface, face);
       for (const unsigned int node : of.surface.faces()[face].nodes)
         {
           const bool is_on_axis = has_axis && of.shape.degree() == 2 && positions[node][0] == 0.;
-          (node == corner || is_on_axis ? result : has_area)[node] = true;
+          const bool is_corner  = triangle && node == triangle->corners[0];
+          (is_corner || is_on_axis ? result : has_area)[node] = true;
         }
     }
   for (unsigned int node = 0; node < result.size(); ++node)

@@ -134,7 +134,7 @@ private:
         const auto &nodes = surface.faces()[cover.face].nodes;
         Owners      covered, whole;
         for (unsigned int k = 0; k < nodes.size(); ++k)
-          for (const auto &master : masters(nodes[k]))
+          for (const auto &master : cover.functions[k])
             {
               covered[master.first] += master.second * cover.covered[k];
               whole[master.first] += master.second * cover.whole[k];

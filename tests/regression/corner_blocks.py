@@ -14,7 +14,7 @@ set Obstacles = {obstacles}
 subsection Body block
   set Mesh = file
   set File = block.inp
-  set Young's modulus = 1000
+  set Young's modulus = 10000
   set Supports = {rollers}
   set Pressure = top: 100, right: 50
 end
@@ -51,7 +51,7 @@ def check_corner(snug, dim, degree, method, master, ranks):
 subsection Body ell
   set Mesh = file
   set File = ell.inp
-  set Young's modulus = 1000
+  set Young's modulus = 10000
   set Supports = bottom: {"xyz"[:dim]}{", " + rollers if rollers else ""}
 end
 """, "obstacle": f"""

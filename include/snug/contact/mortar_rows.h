@@ -57,6 +57,8 @@ private:
     unsigned int                face;    ///< index of the surface face
     std::vector<unsigned int>   masters; ///< indices of the opposite surface faces
     mortar::MultiplierFunctions functions;
+    /// rows with their shares of the multiplier function of each node
+    std::vector<mortar::MultiplierNodes::Shares> shares;
   };
 
   template <typename Number>
@@ -93,6 +95,7 @@ private:
   mortar::CoverBox<dim>
   cover_box(const SlaveFace &face, const Points<double> &x, const Points<double> &n) const;
   std::vector<double> costs() const;
+  void                set_shares();
   void                collect_row_nodes();
   void                leave_out_far_rows(const PairGeometry<dim> &pair);
   template <typename Number>

@@ -18,8 +18,7 @@ struct TributaryFaces
  * Return for each surface node whether its area over some faces is zero except for curvature. A
  * pressure causes no force there, and a force causes no pressure. Such nodes are
  * - corner nodes of degree 2 on the axis of revolution, where int N r dr = 0;
- * - corners of triangles with quadratic functions, int lambda (2 lambda - 1) dA = 0, on faces that
- *   were split into three cells, see mesh::QuadraticElements.
+ * - corners of a QuadraticTriangle, where int lambda (2 lambda - 1) dA = 0.
  */
 template <int dim>
 std::vector<bool> nodes_without_area(const TributaryFaces<dim>                &of,

@@ -10,6 +10,9 @@ struct FaceCover
 {
   unsigned int        face; ///< index of the surface face
   std::vector<double> covered, whole;
+  /// Nodes that do not hang, with the weights with which their multiplier functions contain that of
+  /// each node of the face.
+  std::vector<std::vector<std::pair<unsigned int, double>>> functions;
 };
 
 /**
