@@ -26,7 +26,7 @@ def blocks(upper=None, lower=None, contact=None, solver=None, parts="auto", dim=
 
 def tetrahedra(height, n=3):
     """Return a Gmsh file of the box 1 x 1 x height, each of its n^3 parts in six tetrahedra, with
-    the boundaries bottom, top, left and front."""
+    the boundaries bottom, top, left, front and back."""
     def node(*place):
         return 1 + sum(c * (n + 1)**d for d, c in enumerate(place))
     places = list(itertools.product(range(n + 1), repeat=3))
@@ -40,14 +40,15 @@ def tetrahedra(height, n=3):
             if axes in ((0, 2, 1), (1, 0, 2), (2, 1, 0)):  # odd ones are left-handed
                 path[2:] = reversed(path[2:])
             cells.append(path)
-    sides = {"bottom": (2, 0), "top": (2, n), "left": (0, 0), "front": (1, 0)}
+    sides = {"bottom": (2, 0), "top": (2, n), "left": (0, 0), "front": (1, 0),
+             "back": (1, n)}
     for tag, (axis, level) in enumerate(sides.values(), 1):
         for cell, three in itertools.product(cells, itertools.combinations(range(4), 3)):
             if all(cell[i][axis] == level for i in three):
                 faces.append((tag, [cell[i] for i in three]))
     elements = [f"2 2 {tag} {tag} " + " ".join(str(node(*p)) for p in face) for tag, face in faces]
-    elements += ["4 2 5 5 " + " ".join(str(node(*p)) for p in cell) for cell in cells]
-    names = [f'2 {tag} "{name}"' for tag, name in enumerate(sides, 1)] + ['3 5 "all"']
+    elements += ["4 2 9 9 " + " ".join(str(node(*p)) for p in cell) for cell in cells]
+    names = [f'2 {tag} "{name}"' for tag, name in enumerate(sides, 1)] + ['3 9 "all"']
     parts = {"MeshFormat": ["2.2 0 8"], "PhysicalNames": [str(len(names)), *names],
              "Nodes": [str(len(nodes)), *nodes],
              "Elements": [str(len(elements)),
