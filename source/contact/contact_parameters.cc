@@ -66,8 +66,8 @@ void PairParameters::declare(Entries &entries)
 {
   entries.add("Method", method,
               choice_or_auto<Method>(
-                "nodal if every slave node within the search distance matches a "
-                "master node within 1 % of a face, else mortar"),
+                "nodal if every node of both sides within the search distance matches a "
+                "node of the other side within 1 % of a face, else mortar"),
               "The contact discretization of two faces.");
   entries.add("Slave", slave,
               "The side whose nodes carry the contact pressure and must not penetrate the other "

@@ -31,13 +31,16 @@ inline Names names(Method)
 
 enum class Slave
 {
-  finer, ///< side of the smaller faces; of unequal faces with mortar rows, side of the larger faces
-  first  ///< side that is named first
+  /// side that ends inside the other one; otherwise side of the smaller faces, or, of unequal faces
+  /// with mortar rows, side of the larger faces
+  finer,
+  first ///< side that is named first
 };
 inline Names names(Slave)
 {
   return {
     {"finer",
+     "side that ends inside the other one where both may touch, if only one does; otherwise "
      "side with the smaller mean face size; for mortar contact, side with the larger mean face "
      "size if h E > 1.5, where h is the ratio of the face sizes (larger over smaller) and E the "
      "ratio of Young's moduli (larger over smaller). Sizes within 10 % count as equal; then "

@@ -213,10 +213,16 @@ end
   EXPECT_NEAR(validity.slip, 4. * e_xx, 1e-8);
   EXPECT_EQ(validity.drift, 0.);
   const auto lines = state::warnings(validity);
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0].find("strains are up to 0.4"), 0u) << lines[0];
-  EXPECT_EQ(lines[1].find("active contacts slip tangentially by up to 0.62 of a face"), 0u)
-    << lines[1];
+  ASSERT_EQ(validity.geometric.size(), 1u);
+  EXPECT_NEAR(validity.geometric[0].of_force(), 1.5 * e_yy, 1e-8); // no stress across
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0].find("large displacements would change the stiffness of body block by about "
+                          "-55 %"),
+            0u)
+    << lines[0];
+  EXPECT_EQ(lines[1].find("strains are up to 0.4"), 0u) << lines[1];
+  EXPECT_EQ(lines[2].find("active contacts slip tangentially by up to 0.62 of a face"), 0u)
+    << lines[2];
 }
 
 TEST(Warnings, OfDesignsThatLeaveTheirPairing)
