@@ -21,6 +21,8 @@ def guided_modulus(E, nu):
 STIFFNESS = 1000 * 2 * 1**3 / 12
 MOMENT = values({"state.responses.tip": 25 / (2 * STIFFNESS), "state.compliance": 5 / STIFFNESS,
                  "mesh.cells": 20})
+# A strain of 0.2 along the only stress changes the energy by the factor 1.2.
+LARGE_DISPLACEMENTS = values({"state.assumptions.bodies.0.large_displacements": 1.5 * .2})
 # Stress 0.3 over an area of 1 m^2; a soft part of 1 m, a stiff one of 2 m.
 MESH_REGIONS = values({"state.contact_force.0": .3e6, "state.responses.end": -.3 * (
     1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))})
@@ -278,6 +280,7 @@ ENERGY = ["Gradient/Compare=false", "Optimization/Objective=potential energy"]
 
 CHECKS = [
     Check("moment", [], MOMENT),
+    Check("large-displacements", [], LARGE_DISPLACEMENTS, 1e-9),
     Check("two-materials", [], two_materials),
     Check("mesh-regions", [], MESH_REGIONS),
     Check("named-boundaries", [], named_boundaries),
