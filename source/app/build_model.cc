@@ -149,10 +149,7 @@ std::vector<contact::Pair> build_pairs(const scene::Scene &scene, const mesh::Bo
     {
       auto pair = find_pair(scene, mesh, entry);
       if (!pair.obstacle)
-        {
-          const auto [least, largest] = std::minmax({modulus(pair.slave), modulus(pair.master)});
-          pair.modulus_ratio          = largest / least;
-        }
+        pair.modulus_ratio = modulus(pair.slave) / modulus(pair.master);
       pairs.push_back(std::move(pair));
     }
   return pairs;

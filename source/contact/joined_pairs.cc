@@ -17,6 +17,7 @@ void exchange(Pair &pair)
 {
   std::swap(pair.slave, pair.master);
   std::swap(pair.slave_name, pair.master_name);
+  pair.modulus_ratio = 1. / pair.modulus_ratio;
 }
 
 bool are_equal(const PairParameters &a, const PairParameters &b)

@@ -20,12 +20,17 @@ const double finer_by = 0.1;
 /// few faces benefits from the greater number of nodes of the finer side.
 const double alike = 1.5;
 
+/// Maximum of the same ratio, with the modulus of the slave over that of the master, of a slave
+/// that ends inside its master. Measured on a block on a wide one, edges of 1 and 2: the pressures
+/// of the slave oscillate by 3 % at a ratio of 3, and by 15 to 31 % at ratios of 230 and 600.
+const double alike_at_ends = 5.;
+
 /// Return whether the master of a mortar pair is too coarse for its slave. @p size is the size of
-/// the master's faces over that of the slave's, and @p modulus_ratio is the ratio of the moduli,
-/// the stiffer over the softer.
+/// the master's faces over that of the slave's, and @p modulus_ratio is the modulus of the slave's
+/// body over that of the master's.
 bool prefers_coarse_slave(const double size, const double modulus_ratio)
 {
-  return size > 1. / (1. - finer_by) && size * modulus_ratio > alike;
+  return size > 1. / (1. - finer_by) && size * std::max(modulus_ratio, 1. / modulus_ratio) > alike;
 }
 
 /// Return the faces of both sides of a pair. The master side of an obstacle is empty.
@@ -132,23 +137,25 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
         chosen.back() = pair;
         return geometry(chosen.size() - 1, positions, held);
       };
+      const auto is_good_end = [&]() {
+        return relative_size(surface, positions, pair) * pair.modulus_ratio <= alike_at_ends &&
+               ends_inside(geometry_of_pair());
+      };
       if (may_exchange)
         {
-          const bool slave_ends = ends_inside(geometry_of_pair());
+          const bool of_slave = is_good_end();
           exchange();
-          const bool master_ends = ends_inside(geometry_of_pair());
-          may_exchange           = slave_ends == master_ends;
-          if (may_exchange || slave_ends)
+          const bool of_master = is_good_end();
+          if (of_slave || !of_master)
             exchange();
+          may_exchange = of_slave == of_master;
         }
       if (may_exchange && relative_size(surface, positions, pair) < 1. - finer_by)
         exchange();
       matching_of.emplace_back();
       bool matches = true; // the nodes of both sides
-      if (!pair.obstacle)
+      for (unsigned int side = 0; side < 2 && !pair.obstacle; ++side)
         {
-          exchange();
-          matches = matching<dim>(geometry_of_pair()).complete();
           exchange();
           matching_of.back() = matching<dim>(geometry_of_pair());
           matches            = matches && matching_of.back().complete();

@@ -40,7 +40,9 @@ inline Names names(Slave)
 {
   return {
     {"finer",
-     "side that ends inside the other one where both may touch, if only one does; otherwise "
+     "side that ends inside the other one where both may touch, if only one does, unless it has "
+     "far finer faces or is far stiffer (size of the other faces over its faces, times its Young's "
+     "modulus over the other one, above 5); otherwise "
      "side with the smaller mean face size; for mortar contact, side with the larger mean face "
      "size if h E > 1.5, where h is the ratio of the face sizes (larger over smaller) and E the "
      "ratio of Young's moduli (larger over smaller). Sizes within 10 % count as equal; then "
@@ -149,8 +151,7 @@ struct Pair
   std::string                       slave_name = {}, master_name = {};
   PairParameters                    parameters = {};
   std::optional<ObstacleParameters> obstacle   = {};
-  /// ratio of Young's moduli of the softest materials of the two bodies, the larger over the
-  /// smaller
+  /// Young's modulus of the softest material of the slave's body over that of the master's body
   double modulus_ratio = 1.;
 
   /// Return "slave: master".
