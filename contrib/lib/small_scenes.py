@@ -24,7 +24,7 @@ MOMENT = values({"state.responses.tip": 25 / (2 * STIFFNESS), "state.compliance"
 # A strain of 0.2 along the only stress changes the energy by the factor 1.2.
 LARGE_DISPLACEMENTS = values({"state.assumptions.bodies.0.large_displacements": 1.5 * .2})
 # Stress 0.3 over an area of 1 m^2; a soft part of 1 m, a stiff one of 2 m.
-MESH_REGIONS = values({"state.contact_force.0": .3e6, "state.responses.end": -.3 * (
+MESH_REGIONS = values({"state.contact_force.0": -.3e6, "state.responses.end": -.3 * (
     1000 / guided_modulus(10, .4) + 2000 / guided_modulus(2000, .3))})
 # Stress 10 over an area of 4 and a height of 2, between smooth walls
 DECK_BLOCKS = values({"state.contact_force.2": -40,
