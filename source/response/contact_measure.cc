@@ -24,7 +24,7 @@ public:
                  const std::vector<std::string> &entries,
                  const double                    power,
                  const AmountOf                 &amount)
-    : pair(parameters.pair), measure(measure), own_entries(entries), power(power), amount(amount)
+    : pair(parameters.pair), measure(measure), read(entries), power(power), amount(amount)
   {
     const auto *const function =
       amount.target<Amount (*)(const state::ContactPoint &, const contact::RowFriction &)>();
@@ -34,7 +34,7 @@ public:
 
   std::vector<std::string> entries() const override
   {
-    auto result = own_entries;
+    auto result = read;
     // All measures read the entry Pair, besides their own entries.
     result.push_back("Pair");
     return result;
@@ -151,15 +151,12 @@ private:
                        const unsigned int             load_case,
                        const PressureRows            &all) const
   {
-    const auto   rows     = counted_rows(solver, load_case, all.area);
-    const auto   reading  = of_pressure ? solver.contact(load_case).pressure_reading(all.force)
-                                        : std::vector<contact::Weights>();
-    const auto   at_nodes = read(all, reading);
+    const auto   rows = counted_rows(solver, load_case, all.area);
     PressureRows counted;
     for (const auto &[i, share] : rows)
       {
-        counted.force.push_back(share * at_nodes.force[i]);
-        counted.area.push_back(share * at_nodes.area[i]);
+        counted.force.push_back(share * all.force[i]);
+        counted.area.push_back(share * all.area[i]);
       }
     const auto of_counted = measure(counted);
     Measured   result{of_counted.value, std::vector<double>(all.force.size(), 0.),
@@ -169,46 +166,6 @@ private:
         const auto &[i, share] = rows[k];
         result.by_force[i]     = share * of_counted.by_force[k];
         result.by_area[i]      = share * of_counted.by_area[k];
-      }
-    return derivatives_by_means(all, at_nodes, reading, std::move(result));
-  }
-
-  /// Return the rows with the pressures at the nodes times their areas as forces, see
-  /// Contact::pressure_reading().
-  static PressureRows read(const PressureRows &means, const std::vector<contact::Weights> &reading)
-  {
-    auto result = means;
-    for (unsigned int i = 0; i < reading.size(); ++i)
-      {
-        if (reading[i].size() == 1)
-          continue;
-        result.force[i] = 0.;
-        for (const auto &[j, weight] : reading[i])
-          result.force[i] += weight * means.area[i] / means.area[j] * means.force[j];
-      }
-    return result;
-  }
-
-  /// Return the measure with the derivatives by the forces and areas that read() has read.
-  static Measured derivatives_by_means(const PressureRows                  &means,
-                                       const PressureRows                  &at_nodes,
-                                       const std::vector<contact::Weights> &reading,
-                                       Measured                             measured)
-  {
-    auto result = measured;
-    for (unsigned int i = 0; i < reading.size(); ++i)
-      {
-        const double slope = measured.by_force[i];
-        if (reading[i].size() == 1 || slope == 0.)
-          continue;
-        result.by_force[i] -= slope;
-        result.by_area[i] += slope * at_nodes.force[i] / means.area[i];
-        for (const auto &[j, weight] : reading[i])
-          {
-            const double factor = slope * weight * means.area[i] / means.area[j];
-            result.by_force[j] += factor;
-            result.by_area[j] -= factor * means.force[j] / means.area[j];
-          }
       }
     return result;
   }
@@ -233,7 +190,7 @@ private:
 
   const std::string              pair;
   const Measure                  measure;
-  const std::vector<std::string> own_entries;
+  const std::vector<std::string> read;
   const double                   power; ///< maximum power of the pressure under an integral
   const AmountOf                 amount;
   bool                           of_pressure; ///< the amount is the normal force

@@ -174,25 +174,6 @@ void describe_friction(const StateSolver<dim>     &solver,
   state.energy -= state.dissipation;
 }
 
-/// Replace the means of the pressure that faces of degree 2 give by the pressures at the nodes.
-template <int dim>
-void read_pressures(const contact::Contact<dim> &contact, ContactState<dim> &state)
-{
-  std::vector<double> forces, means;
-  for (const ContactPoint &point : state.contact)
-    {
-      forces.push_back(point.force);
-      means.push_back(point.pressure);
-    }
-  const auto reading = contact.pressure_reading(forces);
-  for (unsigned int row = 0; row < reading.size(); ++row)
-    {
-      state.contact[row].pressure = 0.;
-      for (const auto &[other, weight] : reading[row])
-        state.contact[row].pressure += weight * means[other];
-    }
-}
-
 template <int dim>
 void describe_contact(const StateSolver<dim>     &solver,
                       const RowCoefficients<dim> &rows,
@@ -244,7 +225,6 @@ void describe_contact(const StateSolver<dim>     &solver,
           std::min(state.degeneracy_distance,
                    std::max(lambda[i] / largest, std::abs(gaps[i]) / largest_gap));
     }
-  read_pressures(solver.contact(state.load_case), state);
   describe_friction(solver, rows, lambda, gaps, largest_gap, state);
 }
 

@@ -153,17 +153,7 @@ public:
                                            const Field              &displacement,
                                            const ContactForces<dim> &forces) const;
   std::vector<double> areas(const Field &positions) const;
-  /**
-   * Return for each row the rows j with weights w_j such that sum_j w_j force_j / area_j is the
-   * pressure at its node; empty for faces of degree 1, where the pressure is the row's own force
-   * per area. On faces of degree 2, force_i / area_i is the mean of the pressure with the weight
-   * N_i. Its second moments along the face, -h^2 / 10 at an end and h^2 / 20 at a middle of three
-   * nodes, are taken out by the second difference of the means D = r_0 - 2 r_1 + r_2 = p'' h^2 /
-   * 10: the pressure is r_1 - D / 4 at the middle and r_0 + D / 2 at an end, along each direction.
-   * Nodes without a positive force, hanging nodes and quadratic triangles take no part.
-   */
-  std::vector<Weights> pressure_reading(const std::vector<double> &forces) const;
-  std::vector<double>  area_derivatives(const Field &positions, const Field &velocity) const;
+  std::vector<double> area_derivatives(const Field &positions, const Field &velocity) const;
   /// Return d/dX sum_i factors_i areas_i for the factors of all rows.
   Field area_gradient(const Field &positions, const std::vector<double> &factors) const;
 

@@ -13,6 +13,9 @@
 #include <vector>
 
 namespace snug::contact {
+/// Ascending surface nodes or points with their weights, which sum to 1.
+using Weights = std::vector<std::pair<unsigned int, double>>;
+
 /**
  * Projection of a point p to a master face. The foot point of p is the point x(xi) = sum_k w_k x_k
  * of the face from which the vector v of PairNormals leads to p, p = x(xi) + t v(xi),  v(xi) =

@@ -34,9 +34,6 @@ struct RowSlopes
   dealii::Tensor<1, dim>              normal;
 };
 
-/// Ascending nodes, points or rows with their weights, which sum to 1.
-using Weights = std::vector<std::pair<unsigned int, double>>;
-
 /// A slave node without a row of its own, with the rows that act for it and their shares. The
 /// shares sum to 1, or to less where rows are out of reach.
 struct DependentMultiplier
