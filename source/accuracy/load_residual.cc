@@ -310,9 +310,11 @@ std::vector<FormulaLoads<dim>> formulas(const state::Model<dim> &model)
         along_axis<dim>(spring.stiffness);
   for (const auto &pair : model.pairs)
     if (pair.parameters.has_friction())
-      for (const auto &[body, boundary] : pair.slave.boundaries())
-        add("the friction", "")[body].boundaries[boundary].traction =
-          along_axis<dim>(contact::resistance<dim>(pair));
+      // The slave, at whose nodes the formula counts, is chosen later.
+      for (const auto *side : {&pair.slave, &pair.master})
+        for (const auto &[body, boundary] : side->boundaries())
+          add("the friction", "")[body].boundaries[boundary].traction =
+            along_axis<dim>(contact::resistance<dim>(pair));
   return result;
 }
 } // namespace

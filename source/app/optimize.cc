@@ -47,7 +47,7 @@ std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene,
   Search<dim>       search(problem, record, start);
   const auto        result = search.run(start);
   report_result(search, result);
-  return optimization::failure_reason(result, scene.optimization);
+  return results.failure_reason(optimization::failure_reason(result, scene.optimization));
 }
 
 /// This class searches on meshes that are made for targets. Each search begins where the search
@@ -221,8 +221,9 @@ std::string AdaptiveOptimization<dim>::run()
         continue;
       report_result(on_mesh, result, is_interrupted ? PriorResults() : phase.prior);
       results->print_work();
-      return phase.failure_reason.empty() ? optimization::failure_reason(result, scene.optimization)
-                                          : phase.failure_reason;
+      return results->failure_reason(phase.failure_reason.empty()
+                                       ? optimization::failure_reason(result, scene.optimization)
+                                       : phase.failure_reason);
     }
 }
 } // namespace

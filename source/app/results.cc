@@ -355,10 +355,15 @@ void Results<dim>::write_summary()
     if (context.rank() == 0)
       summary.write(path("summary.json"));
   });
-  if (!not_valid.empty() && !problem->scene.accept_large_displacements)
-    throw SolveError("the result is not valid: " + not_valid +
-                     ", but small displacements are assumed; 'Accept large displacements' = true "
-                     "accepts it");
+}
+
+template <int dim>
+std::string Results<dim>::failure_reason(const std::string &reason) const
+{
+  if (!reason.empty() || not_valid.empty() || problem->scene.accept_large_displacements)
+    return reason;
+  return "the result is not valid: " + not_valid +
+         ", but small displacements are assumed; 'Accept large displacements' = true accepts it";
 }
 
 template class Results<2>;

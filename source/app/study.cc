@@ -230,7 +230,7 @@ std::string analyse(RunContext &context, const scene::Scene &scene, const bool a
   if (advise)
     results.advise(states);
   results.write_summary();
-  return failure_reason;
+  return results.failure_reason(failure_reason);
 }
 
 /// Print the peak memory of the largest rank and its memory after each stage. Collective.

@@ -108,9 +108,8 @@ Contact<dim>::Contact(const mesh::Surface<dim>         &surface,
 
 /// Choose the slaves and the methods of the joined pairs. A side that ends inside the other one is
 /// the slave, because a face of a slave that the master covers in part shares its force badly among
-/// its nodes. The choices are made once, because a
-/// design that changes which side is finer must not exchange the sides, or the kind of the rows, in
-/// a new contact search.
+/// its nodes. The choices are made once, because a design that changes which side is finer must not
+/// exchange the sides, or the kind of the rows, in a new contact search.
 template <int dim>
 void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirections<dim> &held)
 {

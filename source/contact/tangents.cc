@@ -197,8 +197,8 @@ std::vector<dealii::Tensor<1, dim>>
 Contact<dim>::tangent_directions(const std::vector<Row<dim>> &rows) const
 {
   std::vector<dealii::Tensor<1, dim>> result;
-  for (const auto &[row, index, is_held] : tangent_places)
-    result.push_back(tangent_direction(frames[row].reference, rows[row].normal, index));
+  for (const Tangent &of : tangent_places)
+    result.push_back(tangent_direction(frames[of.row].reference, rows[of.row].normal, of.index));
   return result;
 }
 
@@ -225,8 +225,8 @@ std::vector<Row<dim>> Contact<dim>::tangent_rows(const Field                 &po
   const auto                           in_space = placed.to_space(positions);
   const faces::PointField<dim, double> x(in_space);
   std::vector<Row<dim>>                result;
-  for (const auto &[row, index, is_held] : tangent_places)
-    result.push_back(tangent_row(placed.turned(rows[row]), index, frames[row], x));
+  for (const Tangent &of : tangent_places)
+    result.push_back(tangent_row(placed.turned(rows[of.row]), of.index, frames[of.row], x));
   return placed.turned_back(std::move(result));
 }
 
@@ -242,14 +242,15 @@ Contact<dim>::tangent_row_derivatives(const Field                 &positions,
   const auto in_space = placed.to_space(positions), motion = placed.turned(velocity);
   const faces::PointField<dim, faces::Differential<1>> x(in_space, motion);
   std::vector<Row<dim>>                                result;
-  for (const auto &[row, index, is_held] : tangent_places)
+  for (const Tangent &of : tangent_places)
     {
+      const unsigned int row = of.row;
       // With the present direction as the reference, the derivative of the frame has no spin.
       auto frame      = frames[row];
       frame.reference = tangent_direction(frame.reference, rows[row].normal, 0);
       result.push_back(derivative_of(
         tangent_row(with_derivatives(placed.turned(rows[row]), placed.turned(derivatives[row])),
-                    index, frame, x)));
+                    of.index, frame, x)));
     }
   return placed.turned_back(std::move(result));
 }

@@ -1,6 +1,7 @@
 #include <snug/base/narrow.h>
 #include <snug/elasticity/cell_point.h>
 #include <snug/qp/direction_basis.h>
+#include <snug/state/body_boxes.h>
 #include <snug/state/geometric_effects.h>
 
 #include <deal.II/base/mpi.h>
@@ -87,11 +88,9 @@ std::vector<std::vector<dealii::Tensor<1, 3>>> free_rotations(const StateSolver<
   const unsigned int n_bodies = narrow<unsigned int>(solver.model().bodies.size()), n = 6;
   const auto        &mesh   = solver.mesh();
   const auto         frames = solver.held().frames(state.positions);
-  // The sums of r r' over all held directions q at x, where r . (t, w) = q . (t + w x x / size).
-  double size = 0.;
-  for (const auto &x : state.positions)
-    size = std::max(size, x.norm());
-  size = dealii::Utilities::MPI::max(size, mesh.communicator());
+  const auto         boxes  = body_boxes(mesh);
+  // The sums of r r' over all held directions q at x, where r . (t, w) = q . (t + w x x), with x
+  // from the centre of the body, over its size.
   std::vector<double> sums(std::size_t(n_bodies) * n * n, 0.);
   const unsigned int  rank = solver.context().rank();
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
@@ -99,13 +98,15 @@ std::vector<std::vector<dealii::Tensor<1, 3>>> free_rotations(const StateSolver<
       const unsigned int h = solver.held().find(mesh.global_node(node));
       if (h == solver.held().n_nodes() || mesh.owner(node) != rank)
         continue;
+      const auto &box   = boxes[mesh.body_of_node(node)];
+      const auto  place = (state.positions[node] - box.centre) / box.length;
       for (const auto &direction : frames[h].directions)
         {
           dealii::Tensor<1, 3> q, x;
           for (int d = 0; d < dim; ++d)
             {
               q[d] = direction[d];
-              x[d] = state.positions[node][d] / size;
+              x[d] = place[d];
             }
           const auto   moment = cross_product_3d(x, q);
           const double r[n]   = {q[0], q[1], q[2], moment[0], moment[1], moment[2]};
@@ -126,7 +127,7 @@ std::vector<std::vector<dealii::Tensor<1, 3>>> free_rotations(const StateSolver<
             M(i, j) = sums[(std::size_t(body) * n + i) * n + j];
             // In the plane only rotations about the last axis are motions.
             if (dim == 2 && i == j && (i == 3 || i == 4))
-              M(i, i) += 1. + size;
+              M(i, i) += 1.;
             largest = std::max(largest, std::abs(M(i, j)));
           }
       const auto free = qp::null_space(M, held_cut * largest);

@@ -7,6 +7,7 @@ import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"))
 
+from expectations import Expectations  # noqa: E402
 from runs import scene, solve  # noqa: E402
 
 
@@ -96,12 +97,7 @@ def dragged(gap):
 
 
 def main():
-    wrong = 0
-
-    def expect(what, is_right):
-        nonlocal wrong
-        wrong += not is_right
-        print("right" if is_right else "WRONG", what)
+    expect = Expectations()
     # The finer side is the slave: the side named first, then the other one.
     first, second = (solve(pushed(*cells)).state["responses"] for cells in ((6, 8), (4, 12)))
     for name, value in first.items():
@@ -131,7 +127,7 @@ def main():
         warnings = solve(round_on_plane(distance)).summary["warnings"]
         expect(f"search distance {distance}: {warnings}",
                any("beyond the search distance" in line for line in warnings) == warns)
-    return 1 if wrong else 0
+    return expect.status()
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"))
 
+from expectations import Expectations  # noqa: E402
 from runs import run, scene  # noqa: E402
 
 NONE = {"Accuracy": {"Estimate": "none"}}
@@ -74,12 +75,7 @@ def effect(text, accepted=False):
 
 
 def main():
-    wrong = 0
-
-    def expect(what, is_right):
-        nonlocal wrong
-        wrong += not is_right
-        print("right" if is_right else "WRONG", what)
+    expect = Expectations()
     for strain in (.01, -.05):
         _, found, _, _ = effect(bar(strain))
         expect(f"bar pulled by {strain}: {found}", math.isclose(found, 1.5 * strain, rel_tol=1e-6))
@@ -98,7 +94,7 @@ def main():
            status == 3 and "the result is not valid" in message)
     status, _, _, _ = effect(disc(1.05), accepted=True)
     expect(f"accepted: status {status}", status == 0)
-    return 1 if wrong else 0
+    return expect.status()
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import sys
 LIB = pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"
 sys.path[:0] = [str(LIB), str(LIB / "neighbours"), str(LIB / "stability")]
 
+from expectations import Expectations  # noqa: E402
 from runs import RunError, run, scene  # noqa: E402
 from scenes import tetrahedra  # noqa: E402
 
@@ -71,12 +72,7 @@ def profile(found):
 
 
 def main():
-    wrong = 0
-
-    def expect(what, is_right):
-        nonlocal wrong
-        wrong += not is_right
-        print("right" if is_right else "WRONG", what)
+    expect = Expectations()
     for name, text in EVEN.items():
         pressures = result(text, 2 if "in part" in name else 3).pressures()
         error = max(abs(p / 10 - 1) for p in pressures)
@@ -93,7 +89,7 @@ def main():
     expect(f"cylinder, {len(errors)} nodes within .8 of {end:.3f}: error {100 * rms:.1f} % rms, "
            f"{100 * min(errors):.1f} to {100 * max(errors):.1f} %",
            rms < .06 and min(errors) > -.2 and max(errors) < .2)
-    return 1 if wrong else 0
+    return expect.status()
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"))
 
+from expectations import Expectations  # noqa: E402
 from runs import sample, scene, solve  # noqa: E402
 
 
@@ -36,7 +37,7 @@ def scan(dim, contact, face, n, cells=(23, 40)):
 
 
 def main():
-    wrong = 0
+    expect = Expectations()
     pairs, exchanged = "top.bottom: base.top", "base.top: top.bottom"
     # Pairs in both orders; mortar, and nodal rows where a node of the narrow side has one row.
     cases = [(2, {"Pairs": pairs}, .05), (2, {"Pairs": exchanged}, .05),
@@ -48,10 +49,9 @@ def main():
             spread = max(abs(value / mean - 1.) for value in values)
             jump = max(abs(b - a) for a, b in zip(values, values[1:])) / mean
             right = spread < .1 and (dim == 3 or name == "largest" or jump < .02)
-            wrong += not right
-            print("right" if right else "WRONG", dim, contact, f"{name}: mean {mean:.4g}, within "
-                  f"{100 * spread:.1f} %, steps up to {100 * jump:.1f} %")
-    return 1 if wrong else 0
+            expect(f"{dim}D, {contact}, {name}: mean {mean:.4g}, within {100 * spread:.1f} %, steps "
+                   f"up to {100 * jump:.1f} %", right)
+    return expect.status()
 
 
 if __name__ == "__main__":

@@ -84,9 +84,12 @@ public:
   response_values(const state::ContactState<dim> &state) const;
 
   /// Fill in program, mesh, work and times and write summary.json.
-  /// Collective. @throws SolveError if large displacements make the result wrong and the scene does
-  /// not accept them.
+  /// Collective.
   void write_summary();
+
+  /// Return what is wrong with the result: @p reason, or, if it is empty, that large displacements
+  /// make the states of add_last() wrong and the scene does not accept them; empty: nothing.
+  std::string failure_reason(const std::string &reason) const;
 
   /// Return the path of the file @p name in the output directory.
   std::string path(const std::string &name) const

@@ -77,8 +77,6 @@ struct ContactPoint
   /// @}
 };
 
-/// Quantities that show how far a state leaves the range of the linear model; see
-/// validity_checks.h.
 /// Effect of large displacements on one body, which the linear model leaves out, see
 /// geometric_effects().
 struct GeometricEffect
@@ -91,6 +89,8 @@ struct GeometricEffect
   double of_force() const { return 1.5 * energy; }
 };
 
+/// Quantities that show how far a state leaves the range of the linear model; see
+/// validity_checks.h.
 struct ValidityChecks
 {
   double rotation = 0.; ///< maximum over cells [rad]
