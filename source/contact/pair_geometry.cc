@@ -1,5 +1,6 @@
 #include <snug/contact/pair_geometry.h>
 #include <snug/faces/nodal_normals.h>
+#include <snug/faces/quadratic_triangle.h>
 #include <snug/geometry/formula.h>
 
 #include <deal.II/base/numbers.h>
@@ -23,6 +24,17 @@ double face_size(const std::vector<unsigned int>          &nodes,
                  const typename mesh::Surface<dim>::Field &positions)
 {
   return (positions[nodes.back()] - positions[nodes.front()]).norm() / std::sqrt(dim - 1.);
+}
+
+/// Return the mean edge of a triangle, which counts as one face: it has as many rows per area as a
+/// square with this edge.
+template <typename Field>
+double mean_edge(const faces::QuadraticTriangle &triangle, const Field &positions)
+{
+  double sum = 0.;
+  for (unsigned int k = 0; k < 3; ++k)
+    sum += (positions[triangle.corners[k]] - positions[triangle.corners[(k + 1) % 3]]).norm();
+  return sum / 3.;
 }
 
 /// An obstacle that a rigid motion has moved, x = Q X + t.
@@ -114,11 +126,17 @@ std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &su
                                     const typename mesh::Surface<dim>::Field &positions)
 {
   std::vector<double> sizes(surface.n_nodes(), 0.);
-  for (const auto &face : surface.faces())
-    for (const unsigned int node : face.nodes)
-      // Take the largest face, because tangential slips and pairing drifts are compared with what
-      // the mesh resolves at the node.
-      sizes[node] = std::max(sizes[node], face_size<dim>(face.nodes, positions));
+  for (unsigned int f = 0; f < surface.faces().size(); ++f)
+    {
+      const auto  &nodes    = surface.faces()[f].nodes;
+      const auto   triangle = faces::quadratic_triangle(surface, f);
+      const double size =
+        triangle ? mean_edge(*triangle, positions) : face_size<dim>(nodes, positions);
+      for (const unsigned int node : nodes)
+        // Take the largest face, because tangential slips and pairing drifts are compared with what
+        // the mesh resolves at the node.
+        sizes[node] = std::max(sizes[node], size);
+    }
   return sizes;
 }
 

@@ -1,5 +1,6 @@
 #include <snug/state/contact_results.h>
 #include <snug/state/continuity.h>
+#include <snug/state/nodal_pressures.h>
 #include <snug/state/reactions.h>
 #include <snug/state/thermal.h>
 #include <snug/state/validity_checks.h>
@@ -175,6 +176,17 @@ void describe_friction(const StateSolver<dim>     &solver,
 }
 
 template <int dim>
+void set_nodal_pressures(const StateSolver<dim> &solver, ContactState<dim> &state)
+{
+  std::vector<double> means;
+  for (const ContactPoint &point : state.contact)
+    means.push_back(point.pressure);
+  const auto pressures = nodal_pressures(solver.surface(), solver.contact(state.load_case), means);
+  for (unsigned int row = 0; row < means.size(); ++row)
+    state.contact[row].pressure = pressures[row];
+}
+
+template <int dim>
 void describe_contact(const StateSolver<dim>     &solver,
                       const RowCoefficients<dim> &rows,
                       ContactState<dim>          &state)
@@ -225,6 +237,8 @@ void describe_contact(const StateSolver<dim>     &solver,
           std::min(state.degeneracy_distance,
                    std::max(lambda[i] / largest, std::abs(gaps[i]) / largest_gap));
     }
+  if (solver.mesh().degree() == 2)
+    set_nodal_pressures(solver, state);
   describe_friction(solver, rows, lambda, gaps, largest_gap, state);
 }
 

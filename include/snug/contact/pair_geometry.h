@@ -76,7 +76,8 @@ struct PairGeometry
 template <int dim>
 std::function<double(const dealii::Point<dim> &)> resistance(const Pair &pair);
 
-/// Return the edge length, as in mean_face_size(), of the largest face at each surface node.
+/// Return the edge length, as in mean_face_size(), of the largest face at each surface node. A
+/// triangle with quadratic functions counts as one face, with the mean of its edges.
 template <int dim>
 std::vector<double> node_face_sizes(const mesh::Surface<dim>                 &surface,
                                     const typename mesh::Surface<dim>::Field &positions);

@@ -73,9 +73,9 @@ struct BodyLoads
 template <int dim>
 struct LoadCase
 {
-  std::string                 name;     ///< may be empty for a single load case
-  std::vector<BodyLoads<dim>> bodies;   ///< one per body, in the frames of the bodies
-  contact::Position<dim>      position; ///< of the bodies and obstacles
+  std::string                 name;          ///< may be empty for a single load case
+  std::vector<BodyLoads<dim>> bodies;        ///< one per body, in the frames of the bodies
+  contact::Position<dim>      position = {}; ///< of the bodies and obstacles
   /// earlier load case of equal position whose slips this load case continues, as a load step
   std::optional<unsigned int> after = {};
 };
