@@ -4,7 +4,8 @@ names.
 
 Uniform pressure between bodies of tetrahedra, on meshes that match or do not, is exact. The pressure
 of a rigid cylinder on tetrahedra between two planes is that of a fine mesh of squares in plane
-strain: it has no zeros and no peaks at corners or middles of edges."""
+strain: it has no zeros and no peaks at corners or middles of edges. Pressures on hexahedra of degree
+2 do not alternate between corners and middles of edges."""
 
 import bisect
 import pathlib
@@ -50,7 +51,7 @@ EVEN = {"meshes that match": pressed(),
         "quadratic hexahedra": pressed(lower={"Mesh": "box", "File": "", "Box cells": "4, 4, 4"})}
 
 
-def on_cylinder(dim, **body):
+def on_cylinder(dim, body, **entries):
     """Return a block that is pressed on a rigid cylinder, in plane strain."""
     last = "xyz"[dim - 1]
     planes = "left: x, front: y, back: y" if dim == 3 else "left: x"
@@ -62,7 +63,7 @@ def on_cylinder(dim, **body):
                  {"Pairs": "block.bottom: cylinder"},
                  obstacles={"cylinder": {"Shape": "sphere" if dim == 2 else "cylinder",
                                          "Radius": 4, **place}},
-                 sections=AROUND, Dimension=dim)
+                 sections=AROUND, Dimension=dim, **entries)
 
 
 def profile(found):
@@ -77,10 +78,10 @@ def main():
         pressures = result(text, 2 if "in part" in name else 3).pressures()
         error = max(abs(p / 10 - 1) for p in pressures)
         expect(f"even pressure, {name}: {len(pressures)} rows, error {error:.1e}", error < 1e-8)
-    places, right = profile(result(on_cylinder(2, **{"Mesh": "box", "Box cells": "128, 128"})))
+    places, right = profile(result(on_cylinder(2, {"Mesh": "box", "Box cells": "128, 128"})))
     end = max(x for x, p in zip(places, right) if p > 0.)
     errors = []
-    for x, p in zip(*profile(result(on_cylinder(3, **TETRAHEDRA), 8))):
+    for x, p in zip(*profile(result(on_cylinder(3, TETRAHEDRA), 8))):
         if x < .8 * end:
             k = min(max(bisect.bisect(places, x), 1), len(places) - 1)
             part = (x - places[k - 1]) / (places[k] - places[k - 1])
@@ -89,6 +90,11 @@ def main():
     expect(f"cylinder, {len(errors)} nodes within .8 of {end:.3f}: error {100 * rms:.1f} % rms, "
            f"{100 * min(errors):.1f} to {100 * max(errors):.1f} %",
            rms < .06 and min(errors) > -.2 and max(errors) < .2)
+    for dim, cells in ((2, "8, 8"), (3, "12, 2, 12")):
+        text = on_cylinder(dim, {"Mesh": "box", "Box cells": cells}, Element_degree=2)
+        error = max(profile(result(text))[1]) / max(right) - 1
+        expect(f"cylinder, degree 2, {cells} cells: largest pressure {100 * error:.2f} % off",
+               abs(error) < .003)
     return expect.status()
 
 
