@@ -143,12 +143,12 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
   u.displacement = mesh::owners_values(solver.mesh(), state.displacement);
   for (const auto &point : state.contact)
     {
-      u.pressures.push_back(point.pressure);
+      u.pressures.push_back(point.mean);
       if (!solver.has_friction())
         continue;
       u.shears.emplace_back();
       for (int d = 0; d < dim; ++d)
-        u.shears.back()[d] = point.traction[d];
+        u.shears.back()[d] = point.force == 0. ? 0. : -point.mean / point.force * point.shear[d];
     }
   return u;
 }

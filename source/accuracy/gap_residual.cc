@@ -97,7 +97,7 @@ double GapResidual<dim>::excess_work(const std::vector<state::ContactPoint> &row
   const auto          in_space   = contact.placed_surface().turned(on_surface);
   std::vector<double> pressures;
   for (const auto &row : rows)
-    pressures.push_back(row.pressure);
+    pressures.push_back(row.mean);
   const auto p    = values(pressures);
   double     work = 0.;
   for (unsigned int i = 0; i < points.size(); ++i)

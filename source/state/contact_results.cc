@@ -180,7 +180,7 @@ void set_nodal_pressures(const StateSolver<dim> &solver, ContactState<dim> &stat
 {
   std::vector<double> means;
   for (const ContactPoint &point : state.contact)
-    means.push_back(point.pressure);
+    means.push_back(point.mean);
   const auto pressures = nodal_pressures(solver.surface(), solver.contact(state.load_case), means);
   for (unsigned int row = 0; row < means.size(); ++row)
     state.contact[row].pressure = pressures[row];
@@ -226,7 +226,7 @@ void describe_contact(const StateSolver<dim>     &solver,
       point.force = lambda[i] / scale;
       // The area may be round-off, as on the axis with degree 2.
       if (areas[i] > 1e-10 * largest_area)
-        point.pressure = point.force / areas[i];
+        point.pressure = point.mean = point.force / areas[i];
       point.active = active[i] != 0.;
       // Decide by size, not by the active set, because a contact in the set may carry no force.
       point.strong = lambda[i] > strong_part * largest;

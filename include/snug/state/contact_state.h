@@ -57,7 +57,8 @@ inline Names names(FrictionStatus)
 struct ContactPoint
 {
   double force    = 0.;    ///< lambda_i / nr_i [force]; forces >= 0 push apart
-  double pressure = 0.;    ///< force / tributary area [force/length^(dim-1)]
+  double mean     = 0.;    ///< force / area [force/length^(dim-1)]; zero without an area
+  double pressure = 0.;    ///< at the node, see nodal_pressures() [force/length^(dim-1)]
   double gap      = 0.;    ///< remaining gap after deformation [length], >= 0
   double area     = 0.;    ///< tributary area [length^(dim-1)]
   bool   active   = false; ///< in the active set
@@ -72,7 +73,8 @@ struct ContactPoint
   /// displacement of the slave side relative to the master, in this load step [length]
   dealii::Tensor<1, 3> slip;
   double               limit = 0.; ///< maximum of |shear| [force]
-  /// -shear / area [force/length^(dim-1)]; zero without an area
+  /// at the node, along -shear and in the ratio of the pressure to the force
+  /// [force/length^(dim-1)]
   dealii::Tensor<1, 3> traction;
   /// @}
 };
