@@ -2,11 +2,11 @@
 #include <snug/feti/loaded_problem.h>
 
 namespace snug::feti {
-LoadedProblem::LoadedProblem(const Linearization          &linearization,
-                             const PrimalVectors          &the_loads,
-                             qp::MultiVector               g,
-                             const ContactPairs           *pairs,
-                             std::vector<qp::FrictionCone> cones)
+LoadedProblem::LoadedProblem(const Linearization &linearization,
+                             const PrimalVectors &the_loads,
+                             qp::MultiVector      g,
+                             const ContactPairs  *pairs,
+                             qp::FrictionCones    cones)
   : linear(linearization)
   , f(the_loads)
   , gap(std::move(g))

@@ -3,7 +3,7 @@
 #include <sstream>
 
 namespace snug::qp {
-CycleDetector::CycleDetector(const ActiveSetOptions &the_options) : options(the_options) {}
+CycleDetector::CycleDetector(const SetRules &the_rules) : rules(the_rules) {}
 
 CycleDetector::InnerAccuracy
 CycleDetector::enter(const std::uint64_t set, const double kkt_residual, const bool shrinks)
@@ -19,14 +19,14 @@ CycleDetector::enter(const std::uint64_t set, const double kkt_residual, const b
 void CycleDetector::count_visits(const std::uint64_t set)
 {
   const unsigned int n = ++visits[set];
-  if (inner_accuracy == single && (++single_steps > options.single_steps || n >= options.visits))
+  if (inner_accuracy == single && (++single_steps > rules.single_steps || n >= rules.visits))
     {
       inner_accuracy = give_up;
       why            = "cycles";
     }
-  else if (inner_accuracy < single && n >= options.visits)
+  else if (inner_accuracy < single && n >= rules.visits)
     {
-      inner_accuracy = n == options.visits ? exact : single;
+      inner_accuracy = n == rules.visits ? exact : single;
       if (inner_accuracy == single)
         visits.clear();
     }
@@ -42,7 +42,7 @@ void CycleDetector::watch_residual(const double kkt_residual, const bool shrinks
       least_residual = kkt_residual;
       idle_steps     = 0;
     }
-  else if (inner_accuracy < single && !shrinks && ++idle_steps >= options.patience)
+  else if (inner_accuracy < single && !shrinks && ++idle_steps >= rules.patience)
     {
       inner_accuracy = give_up;
       std::ostringstream text;

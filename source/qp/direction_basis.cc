@@ -51,6 +51,8 @@ DirectionBasis DirectionBasis::off(const RowSet &rows, MPI_Comm comm) const
   MPI_Scan(&count, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
   first -= count; // MPI_Exscan leaves the result undefined on the first rank
   MPI_Allreduce(&count, &total, 1, MPI_UNSIGNED, MPI_SUM, comm);
+  if (total == 0)
+    return *this;
   // As many conditions as directions leave no combination in general, so skip the work.
   if (total >= n)
     return DirectionBasis();

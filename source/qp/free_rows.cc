@@ -34,7 +34,13 @@ std::array<double, 2> FrictionCone::trial_force(const double       compliance,
   return x;
 }
 
-void free_tangents(const std::vector<FrictionCone> &cones, RowSet &rows)
+FrictionCones::FrictionCones(std::vector<FrictionCone> the_cones) : cones(std::move(the_cones))
+{
+  for (unsigned int i = 0; i < cones.size(); ++i)
+    place.insert(cones[i].normal, i);
+}
+
+void free_tangents(const FrictionCones &cones, RowSet &rows)
 {
   for (const FrictionCone &cone : cones)
     for (unsigned int t = 0; t < cone.n_tangents; ++t)
@@ -46,7 +52,10 @@ void free_tangents(const std::vector<FrictionCone> &cones, RowSet &rows)
 
 FreeRows::FreeRows(RowSet rows, std::vector<Slip> slips, const bool the_transposed)
   : flags(std::move(rows)), slipping(std::move(slips)), transposed(the_transposed)
-{}
+{
+  for (unsigned int i = 0; i < slipping.size(); ++i)
+    place.insert(slipping[i].cone.normal, i);
+}
 
 void FreeRows::restrict(MultiVector &x) const
 {

@@ -105,7 +105,7 @@ HeldSets::balanced(FreeRows rows, const MultiVector &w, const double scale, Mult
   const double unbalanced = free_set->make_feasible(lambda, e)[0];
   lambda.add(1., given);
   if (unbalanced > balance_tolerance * load_scale(problem, lambda, scale))
-    throw UnsettledSets("no equilibrium: the contacts cannot balance the loads of a floating body");
+    throw NoEquilibrium("no equilibrium: the contacts cannot balance the loads of a floating body");
   return free_set;
 }
 
@@ -165,7 +165,7 @@ bool HeldSets::change(const FreeSet     &free_set,
     }
   if (closing > 0. && close(rates, rows))
     return true;
-  throw UnsettledSets("no equilibrium: " + problem.describe_motion(motion));
+  throw NoEquilibrium("no equilibrium: " + problem.describe_motion(motion));
 }
 
 /// Return the slips of all ranks that the motion moves, ascending by their slip. Collective.
@@ -265,19 +265,13 @@ FreeRows HeldSets::with_one_change(const FreeRows &from, const FreeRows &to) con
       for (unsigned int t = 0; t < cone.n_tangents; ++t)
         changes = changes || rows[cone.tangents[t]] != from.rows()[cone.tangents[t]];
       // A contact that does not change keeps its set, with the new direction if it slips.
-      const auto find = [&](const FreeRows &in) {
-        return std::find_if(in.slips().begin(), in.slips().end(),
-                            [&](const Slip &s) { return s.cone.normal == cone.normal; });
-      };
       const FreeRows &source = changes ? to : from;
-      const auto      slip   = find(source);
       flags[cone.normal]     = source.rows()[cone.normal];
       for (unsigned int t = 0; t < cone.n_tangents; ++t)
         flags[cone.tangents[t]] = source.rows()[cone.tangents[t]];
-      if (slip == source.slips().end())
-        continue;
-      const auto newer = find(to);
-      slips.push_back(newer == to.slips().end() ? *slip : *newer);
+      const Slip *const slip = source.slip(cone.normal), *const newer = to.slip(cone.normal);
+      if (slip)
+        slips.push_back(newer ? *newer : *slip);
     }
   return {flags, slips};
 }

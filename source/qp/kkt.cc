@@ -1,3 +1,4 @@
+#include <snug/qp/held_sets.h>
 #include <snug/qp/kkt.h>
 
 #include <algorithm>
@@ -141,51 +142,12 @@ double application_rounding(const DualProblem &problem, const EqualityPart &part
 }
 } // namespace
 
-std::unique_ptr<FreeSet>
-balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, double scale)
-{
-  const MPI_Comm comm = problem.context().communicator();
-  while (true)
-    {
-      auto         free_set   = problem.free_set(rows);
-      MultiVector  next       = lambda;
-      const double unbalanced = free_set->make_feasible(next, problem.e())[0];
-      if (unbalanced <= balance_tolerance * load_scale(problem, next, scale))
-        {
-          lambda = next;
-          return free_set;
-        }
-      // The part of e that the set cannot hold is a rigid motion of some bodies. Contacts that
-      // close in this motion can push back. Rates that are rounding errors relative to the fastest
-      // rate are excluded, because they would let the set grow to all rows.
-      const auto &motions = free_set->unresisted_motions();
-      const auto  motion  = times(motions, transpose_times(motions, problem.e()));
-      const auto  rates   = problem.apply_Gt(motion);
-      double      fastest = 0.;
-      for (unsigned int i = 0; i < rates.n_rows(); ++i)
-        fastest = std::max(fastest, problem.bounded()[i] ? rates(i) : 0.);
-      MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
-      bool grows = false;
-      for (unsigned int i = 0; i < rates.n_rows(); ++i)
-        if (problem.bounded()[i] && !rows[i] && rates(i) > 1e-10 * fastest)
-          {
-            rows[i] = 1;
-            grows   = true;
-          }
-      free_tangents(problem.cones(), rows);
-      if (!any(grows, comm))
-        throw SolveError("no equilibrium: the contacts cannot balance "
-                         "the loads of a floating body");
-    }
-}
-
 EqualityPart equality_part(const DualProblem &problem, const RowSet &rows, MultiVector &x)
 {
   EqualityPart part;
-  part.rows   = rows;
   part.lambda = MultiVector(problem.n_owned());
   // From lambda = 0 this gives lambda_Im = G'(GG')^+ e, in the range of Q.
-  part.free_set = balanced_set(problem, part.rows, part.lambda, 0.);
+  part.free_set = HeldSets(problem).balanced(rows, MultiVector(problem.n_owned()), 0., part.lambda);
 
   MultiVector block = part.lambda;
   block.append(x);

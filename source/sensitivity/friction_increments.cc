@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace snug::sensitivity {
 namespace {
@@ -80,9 +81,8 @@ std::vector<WeakContact> weak_contacts(const state::StateSolver<dim>  &solver,
         const auto &point = state.contact[of_contact[i]];
         WeakContact contact{i, {}, !point.strong};
         contact.cone.normal = i;
-        for (const qp::FrictionCone &cone : feti.cones())
-          if (cone.normal == i)
-            contact.cone = cone;
+        if (const auto *cone = feti.cones().find(i))
+          contact.cone = *cone;
         contact.slip = tangential(contact, w);
         if (!contact.grazes)
           {
@@ -99,18 +99,19 @@ qp::FreeRows with_sets(const qp::FreeRows             &strong,
                        const std::vector<WeakContact> &contacts,
                        const double                    turning)
 {
-  auto rows  = strong.rows();
-  auto slips = strong.slips();
+  auto                   rows = strong.rows();
+  std::vector<qp::Slip>  slips;
+  std::set<unsigned int> weak;
+  for (const WeakContact &contact : contacts)
+    weak.insert(contact.normal);
+  for (const qp::Slip &slip : strong.slips())
+    if (weak.count(slip.cone.normal) == 0)
+      slips.push_back(slip);
   for (const WeakContact &contact : contacts)
     {
       rows[contact.normal] = contact.set != Set::open;
       for (unsigned int t = 0; t < contact.cone.n_tangents; ++t)
         rows[contact.cone.tangents[t]] = contact.set == Set::stick;
-      slips.erase(std::remove_if(slips.begin(), slips.end(),
-                                 [&](const qp::Slip &slip) {
-                                   return slip.cone.normal == contact.normal;
-                                 }),
-                  slips.end());
       // A slip that begins does not turn. The force of a contact that closes follows its slip.
       if (contact.set == Set::slip)
         slips.push_back({contact.cone, contact.direction, contact.grazes ? turning : 0.});

@@ -1,6 +1,5 @@
 #include <snug/base/errors.h>
-#include <snug/qp/pcpg.h>
-#include <snug/qp/projected_gcr.h>
+#include <snug/qp/face_krylov.h>
 #include <snug/qp/row_set.h>
 #include <snug/sensitivity/tangent_system.h>
 
@@ -70,9 +69,7 @@ TangentSystem::TangentSystem(const feti::LoadedProblem  &feti,
   , parameters(parameters)
   , solves(solves)
   , free_set(feti.free_set(rows))
-  , is_symmetric(!qp::any(!rows.slips().empty(), feti.context().communicator()))
-  , known(is_symmetric ? known.off(qp::complement(rows.rows()), feti.context().communicator())
-                       : qp::DirectionBasis())
+  , known(known.off(qp::complement(rows.rows()), feti.context().communicator()))
 {}
 
 /// Return whether ||G mu - e|| of every column is within the tolerance of the sum of ||mu|| and the
@@ -95,17 +92,7 @@ bool TangentSystem::minimize(qp::MultiVector           &mu,
                              const std::vector<double> &tolerances,
                              const bool                 deflates) const
 {
-  if (is_symmetric)
-    return minimize_by(qp::Pcpg(feti, *free_set, known, deflates), mu, residual, tolerances);
-  return minimize_by(qp::ProjectedGcr(feti, *free_set, deflates), mu, residual, tolerances);
-}
-
-template <typename Krylov>
-bool TangentSystem::minimize_by(Krylov                     krylov,
-                                qp::MultiVector           &mu,
-                                qp::MultiVector           &residual,
-                                const std::vector<double> &tolerances) const
-{
+  qp::FaceKrylov krylov(feti, *free_set, known, deflates);
   if (solves == Solves::block)
     return krylov.solve(mu, residual, tolerances, parameters.max_iterations).converged;
   qp::MultiVector all_mu(mu.n_rows(), 0), all_residuals(mu.n_rows(), 0);

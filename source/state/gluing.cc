@@ -53,8 +53,8 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
 }
 
 template <int dim>
-std::vector<qp::FrictionCone> Gluing<dim>::cones(const contact::Contact<dim> &contact,
-                                                 const std::vector<double>   &areas) const
+qp::FrictionCones Gluing<dim>::cones(const contact::Contact<dim> &contact,
+                                     const std::vector<double>   &areas) const
 {
   std::map<unsigned int, unsigned int>     owned_of; // by RowCoefficients::row()
   std::map<unsigned int, qp::FrictionCone> cone_of;  // by normal row

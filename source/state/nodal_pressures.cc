@@ -34,8 +34,8 @@ std::vector<Line> lines_of(const std::vector<unsigned int> &nodes)
       if (first / stride % 3 == 0)
         {
           const unsigned int last = first + 2 * stride;
-          result.push_back({{std::min(nodes[first], nodes[last]), nodes[first + stride],
-                             std::max(nodes[first], nodes[last])}});
+          result.push_back({{{std::min(nodes[first], nodes[last]), nodes[first + stride],
+                             std::max(nodes[first], nodes[last])}}});
         }
   return result;
 }

@@ -29,24 +29,24 @@ public:
    * @throws SolveError if no contact forces within the cones balance the loads. The error names the
    * body that escapes and its motion. Bounds of Tresca friction are not checked here.
    */
-  LoadedProblem(const Linearization          &linearization,
-                const PrimalVectors          &f,
-                qp::MultiVector               g,
-                const ContactPairs           *pairs = nullptr,
-                std::vector<qp::FrictionCone> cones = {});
+  LoadedProblem(const Linearization &linearization,
+                const PrimalVectors &f,
+                qp::MultiVector      g,
+                const ContactPairs  *pairs = nullptr,
+                qp::FrictionCones    cones = {});
 
   const Linearization &linearization() const { return linear; }
   const PrimalVectors &loads() const { return f; }
 
   const qp::MultiVector &g() const { return gap; }
 
-  RunContext                          &context() const override { return linear.context(); }
-  unsigned int                         n_owned() const override { return linear.n_owned(); }
-  const qp::RowSet                    &bounded() const override { return normal_rows; }
-  const std::vector<qp::FrictionCone> &cones() const override { return friction; }
-  const qp::MultiVector               &d() const override { return dual_load; }
-  const qp::MultiVector               &e() const override { return rigid_load; }
-  const std::vector<double>           &diagonal() const override { return linear.diagonal(); }
+  RunContext                &context() const override { return linear.context(); }
+  unsigned int               n_owned() const override { return linear.n_owned(); }
+  const qp::RowSet          &bounded() const override { return normal_rows; }
+  const qp::FrictionCones   &cones() const override { return friction; }
+  const qp::MultiVector     &d() const override { return dual_load; }
+  const qp::MultiVector     &e() const override { return rigid_load; }
+  const std::vector<double> &diagonal() const override { return linear.diagonal(); }
   qp::MultiVector apply(const qp::MultiVector &x) const override { return linear.apply(x); }
   qp::MultiVector apply_G(const qp::MultiVector &x) const override
   {
@@ -80,12 +80,12 @@ public:
 private:
   void check_equilibrium() const;
 
-  const Linearization          &linear;
-  const PrimalVectors          &f;
-  qp::MultiVector               gap, rigid_load, dual_load;
-  double                        gross_load; ///< see gross_rigid_part()
-  std::vector<qp::FrictionCone> friction;
-  qp::RowSet                    normal_rows, initial;
+  const Linearization &linear;
+  const PrimalVectors &f;
+  qp::MultiVector      gap, rigid_load, dual_load;
+  double               gross_load; ///< see gross_rigid_part()
+  qp::FrictionCones    friction;
+  qp::RowSet           normal_rows, initial;
 };
 
 /// Return one line for each body that the equality rows and the contacts in @p rows leave free to

@@ -1,30 +1,14 @@
 #ifndef snug_qp_active_set_h
 #define snug_qp_active_set_h
 
+#include <snug/qp/set_rules.h>
 #include <snug/qp/solver.h>
 
 namespace snug::qp {
-/// Accuracy of inner solves, and limits for repeated sets and stalled residuals.
-struct ActiveSetOptions
-{
-  /// Tolerance of inner solves, as a part of the KKT residual. Rough solutions show which rows
-  /// leave as well as exact solutions do, and the directions found on the way are kept. Measured on
-  /// contact problems: 0.7 takes up to a third fewer F-mults than 0.1.
-  double forcing = 0.7;
-  /// Number of visits of one set after which the inner problems are solved more exactly. After one
-  /// more visit, only one row changes per step.
-  unsigned int visits = 3;
-  /// Number of steps that change one row each, before the fall-back to SMALSE-M.
-  unsigned int single_steps = 50;
-  /// Number of steps with entering rows and without a KKT residual a tenth below all previous ones,
-  /// after which SMALSE-M takes over. Contact problems that are solved take 5 to 30 steps in all.
-  unsigned int patience = 30;
-};
-
 /**
  * Inexact primal-dual active set method (a semismooth Newton method). The rows of the active set M
- * are equations, and the other rows carry no force. Pcpg solves the linear problem on M only as
- * exactly as the set is known: to a part of the last KKT residual. The next set is
+ * are equations, and the other rows carry no force. FaceKrylov solves the linear problem on M only
+ * as exactly as the set is known: to a part of the last KKT residual. The next set is
  * @f[ M \leftarrow E \cup \{ i : i \in M \text{ and } \lambda_i > 0, \text{ or }
  *     i \notin M \text{ and } w_i > 0 \}, @f]
  * where zero means zero up to rounding (force_rounding()). This is the set
@@ -38,21 +22,33 @@ struct ActiveSetOptions
  * then to changes of one row (the one with the largest number), then to SMALSE-M. A KKT residual
  * that stalls also leads to SMALSE-M.
  *
+ * With Coulomb or Tresca friction each closed contact sticks or slips, and friction forces of
+ * slipping contacts are eliminated (FreeRows). FrictionSets decides the next sets in the same loop.
+ * Where only slipping contacts hold a loaded body, HeldSets changes them before the linear problem
+ * is solved. Where the sets do not settle, the method starts again with limits of friction forces
+ * from the last step.
+ *
  * Source: Hintermüller, Ito, Kunisch, The primal-dual active set strategy as a semismooth Newton
  * method, SIAM J. Optim. 13 (2003); Hüeber, Wohlmuth, A primal-dual active set strategy for
- * non-linear multibody contact problems, Comput. Methods Appl. Mech. Engrg. 194 (2005).
+ * non-linear multibody contact problems, Comput. Methods Appl. Mech. Engrg. 194 (2005); with
+ * friction Hüeber, Stadler, Wohlmuth, SIAM J. Sci. Comput. 30 (2008), for the sets; the elimination
+ * of friction forces and the changes for free motions are Snug's own.
  */
 class ActiveSet : public Solver
 {
 public:
-  explicit ActiveSet(const SolverParameters &parameters,
-                     const ActiveSetOptions &options = ActiveSetOptions());
+  /// @p rules hold without friction.
+  explicit ActiveSet(const SolverParameters &parameters, const SetRules &rules = SetRules());
 
+  /// @throws SolveError also "no equilibrium", and "slides" with the body and the load that
+  /// friction cannot hold.
   DualSolution solve(const DualProblem &problem, const WarmStart &start) const override;
 
 private:
+  DualSolution solve_with_friction(const DualProblem &problem, const WarmStart &start) const;
+
   SolverParameters parameters;
-  ActiveSetOptions options;
+  SetRules         rules;
 };
 } // namespace snug::qp
 

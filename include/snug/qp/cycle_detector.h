@@ -1,7 +1,7 @@
 #ifndef snug_qp_cycle_detector_h
 #define snug_qp_cycle_detector_h
 
-#include <snug/qp/active_set.h>
+#include <snug/qp/set_rules.h>
 
 #include <cstdint>
 #include <limits>
@@ -21,7 +21,7 @@ public:
     give_up
   };
 
-  explicit CycleDetector(const ActiveSetOptions &options);
+  explicit CycleDetector(const SetRules &rules);
 
   /// Record a visit of the set with fingerprint @p set, coming from a set with @p kkt_residual.
   /// @p shrinks tells that the previous set contains all rows of this one.
@@ -31,7 +31,7 @@ public:
   const std::string &reason() const;
 
 private:
-  ActiveSetOptions                      options;
+  SetRules                              rules;
   std::map<std::uint64_t, unsigned int> visits;
   InnerAccuracy                         inner_accuracy = none;
   unsigned int                          single_steps   = 0;

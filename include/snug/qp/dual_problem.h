@@ -97,9 +97,9 @@ public:
 
   /// Return the contacts with friction; by default there are none. With friction, the problem is
   /// no quadratic program but the conditions of DualSolution.
-  virtual const std::vector<FrictionCone> &cones() const
+  virtual const FrictionCones &cones() const
   {
-    static const std::vector<FrictionCone> none;
+    static const FrictionCones none;
     return none;
   }
 

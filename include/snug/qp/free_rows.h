@@ -61,8 +61,50 @@ struct FrictionCone
   trial_force(double compliance, const MultiVector &lambda, const MultiVector &w) const;
 };
 
+/// The places of objects in a list by the owned rows lambda_N of their contacts.
+class PlaceOfRow
+{
+public:
+  void insert(unsigned int row, unsigned int place)
+  {
+    if (row >= places.size())
+      places.resize(row + 1, none);
+    places[row] = place;
+  }
+
+  template <typename T>
+  const T *find(unsigned int row, const std::vector<T> &list) const
+  {
+    return row < places.size() && places[row] != none ? &list[places[row]] : nullptr;
+  }
+
+private:
+  static constexpr unsigned int none = -1;
+  std::vector<unsigned int>     places;
+};
+
+/// The friction cones of the owned rows, ascending by their contacts and found by their normal
+/// rows.
+class FrictionCones
+{
+public:
+  FrictionCones(std::vector<FrictionCone> cones = {});
+
+  bool                                      empty() const { return cones.empty(); }
+  std::size_t                               size() const { return cones.size(); }
+  std::vector<FrictionCone>::const_iterator begin() const { return cones.begin(); }
+  std::vector<FrictionCone>::const_iterator end() const { return cones.end(); }
+
+  /// Return the cone of the contact with the owned row @p normal; nullptr without friction.
+  const FrictionCone *find(unsigned int normal) const { return place.find(normal, cones); }
+
+private:
+  std::vector<FrictionCone> cones;
+  PlaceOfRow                place;
+};
+
 /// Let all tangential rows be free that may be free, see FrictionCone::n_free_tangents().
-void free_tangents(const std::vector<FrictionCone> &cones, RowSet &rows);
+void free_tangents(const FrictionCones &cones, RowSet &rows);
 
 /// A closed contact that slips along the unit vector n^ of its tangential rows.
 struct Slip
@@ -97,7 +139,9 @@ public:
 
   const RowSet            &rows() const { return flags; }
   const std::vector<Slip> &slips() const { return slipping; }
-  bool                     is_transposed() const { return transposed; }
+  /// Return the slip of the contact with the owned row @p normal; nullptr if it does not slip.
+  const Slip *slip(unsigned int normal) const { return place.find(normal, slipping); }
+  bool        is_transposed() const { return transposed; }
 
   /// Return the same free rows with Z_0 and Z exchanged.
   FreeRows transpose() const { return {flags, slipping, !transposed}; }
@@ -120,6 +164,7 @@ public:
 private:
   RowSet            flags;
   std::vector<Slip> slipping;
+  PlaceOfRow        place; ///< of slips
   bool              transposed;
 };
 } // namespace snug::qp

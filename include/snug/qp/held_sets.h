@@ -5,15 +5,23 @@
 #include <snug/qp/dual_problem.h>
 
 namespace snug::qp {
-/// An error of a search for sets that another way of changing them may avoid.
+/// The error of a search for sets that another method may avoid.
 class UnsettledSets : public SolveError
 {
 public:
   using SolveError::SolveError;
 };
 
-/// This class changes the sets of contacts with friction where they do not hold the bodies, so that
-/// the linear problem on them is solvable. Its members are collective.
+/// The error that no sets hold the bodies. With friction, another way of changing the sets may hold
+/// them.
+class NoEquilibrium : public UnsettledSets
+{
+public:
+  using UnsettledSets::UnsettledSets;
+};
+
+/// This class changes sets of contacts where they do not hold the bodies, so that the linear
+/// problem on them is solvable. Its members are collective.
 class HeldSets
 {
 public:
@@ -23,11 +31,12 @@ public:
   /**
    * Return a face of @p rows, changed until no equation is missing: a motion that no equation
    * resists must be without loads and without friction forces. Otherwise slips against the motion
-   * turn round, the smallest first, and one contact sticks; or open contacts close.
+   * turn round, the smallest first, and one contact sticks; or open contacts close that close in
+   * the motion.
    * @param[in] w slips of the last solution.
    * @param[in] scale of residuals; zero if it is not known yet.
    * @param[in,out] lambda made feasible on the face, with the friction forces of slips.
-   * @throws UnsettledSets "no equilibrium"; SolveError "slides".
+   * @throws NoEquilibrium; SolveError "slides".
    */
   std::unique_ptr<FreeSet>
   balanced(FreeRows rows, const MultiVector &w, double scale, MultiVector &lambda);

@@ -75,17 +75,6 @@ std::vector<double> force_rounding(const DualProblem &problem,
                                    double             tolerance);
 
 /**
- * Return the face of @p rows. Where @p rows cannot balance the loads, the contacts that close in
- * the remaining motion are added to them.
- *
- * @param[in,out] lambda made feasible on the face.
- * @param[in] scale of residuals; zero if it is not known yet.
- * @throws SolveError if no rows can balance the loads. Collective.
- */
-std::unique_ptr<FreeSet>
-balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, double scale);
-
-/**
  * Data from which every solve starts: the least squares solution
  * @f$\lambda_{Im} = G^T (G G^T)^+ e@f$ of G lambda = e on a face, and the scale
  * @f$s = \|P (d - F \lambda_{Im})\|@f$ of the residuals. s depends neither on the start nor on the
@@ -94,8 +83,7 @@ balanced_set(const DualProblem &problem, RowSet &rows, MultiVector &lambda, doub
  */
 struct EqualityPart
 {
-  RowSet                   rows;     ///< free rows
-  std::unique_ptr<FreeSet> free_set; ///< face of the free rows
+  std::unique_ptr<FreeSet> free_set; ///< face of the given rows and those added
   MultiVector              lambda;   ///< lambda_Im
   MultiVector              residual; ///< d - F lambda_Im
   double                   scale = 0.;

@@ -47,6 +47,7 @@ public:
 
   /// Return all directions so far.
   const DirectionBasis &directions() const { return basis; }
+  DirectionBasis        release_directions() { return std::move(basis); }
 
 private:
   /// Minimize over the directions that are already known.

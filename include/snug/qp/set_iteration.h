@@ -1,88 +1,76 @@
 #ifndef snug_qp_set_iteration_h
 #define snug_qp_set_iteration_h
 
-#include <snug/base/narrow.h>
-#include <snug/qp/active_set.h>
 #include <snug/qp/cycle_detector.h>
+#include <snug/qp/face_krylov.h>
+#include <snug/qp/friction_sets.h>
+#include <snug/qp/held_sets.h>
 #include <snug/qp/kkt.h>
-#include <snug/qp/krylov_columns.h>
+#include <snug/qp/set_rules.h>
 
-#include <algorithm>
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace snug::qp {
-/// An iteration that solves linear problems on sets of free rows until the KKT residual meets the
-/// tolerance: what the active set method and the method with friction have in common.
+/**
+ * One solve by an iteration over sets: the linear problem on the free rows is solved by FaceKrylov
+ * until the sets no longer change and the KKT residual meets the tolerance. See ActiveSet for the
+ * method. All members are collective.
+ */
 class SetIteration
 {
 public:
+  SetIteration(const DualProblem      &problem,
+               const SolverParameters &parameters,
+               const SetRules         &rules);
+
+  /// @throws UnsettledSets where the sets do not settle, and another method may find the solution;
+  /// SolveError where the contacts cannot hold the bodies, or the tolerance is not met within the
+  /// allowed F-mults.
+  DualSolution solve(const WarmStart &from);
+
+  /// Return the present iterate as a start for another method.
+  WarmStart     start() const { return {lambda, free_set->free_rows().rows()}; }
   unsigned long f_mults() const { return context.work.f_mults - f_mults_before; }
+  unsigned int  steps() const { return outer; }
 
-protected:
-  /// @p the_method is the name in messages. @p the_forcing is the first tolerance of inner solves.
-  SetIteration(const DualProblem      &the_problem,
-               const SolverParameters &the_parameters,
-               const ActiveSetOptions &the_options,
-               const std::string      &the_method,
-               double                  the_forcing);
-  ~SetIteration() = default;
-
-  /// Return the KKT residual of lambda on the present set. Collective.
-  virtual KktResidual kkt_here() const = 0;
-
-  /// Return whether the KKT residual meets the tolerance, or has reached its rounding error.
+private:
+  void begin(const WarmStart &from);
+  KktResidual
+       kkt_of(const FreeSet &face, const MultiVector &lambda, const MultiVector &residual) const;
+  void solve_on_set();
   bool is_met() const;
-
-  void refresh_residual();
-
-  /// Solve the linear problem on the set by @p krylov and compute the KKT residual. @throws
-  /// SolveError after the maximum number of F-mults. Collective.
-  template <typename Krylov>
-  KrylovResult solve_on_set(Krylov &krylov)
-  {
-    // The limit counts F-mults, not steps, because all solvers measure their work in F-mults.
-    if (f_mults() >= parameters.max_iterations)
-      throw not_converged(method, kkt_here().relative, parameters.relative_tolerance, f_mults(),
-                          true);
-    // An inner solve below half of the wanted KKT residual would only polish a set that may still
-    // change. After a cycle the signs of small entries decide, so inner solves may go further down.
-    const double least =
-      (inner_accuracy == CycleDetector::none ? 0.5 : 0.005) * parameters.relative_tolerance;
-    const KrylovResult inner =
-      krylov.solve(lambda, residual, {std::max(inner_tolerance, least) * scale},
-                   narrow<unsigned int>(parameters.max_iterations - f_mults()));
-    evaluate(inner);
-    return inner;
-  }
-
-  /// Return whether the tolerance is met by a lambda without tension on contact rows, and not only
-  /// by the recurrence of the residual. Clips forces that are rounding errors. Collective.
   bool finished();
+  FreeRows     next_rows() const;
+  void         keep_rows(const FreeRows &next);
+  void         change_rows(const FreeRows &next);
+  void         take(const FreeRows &rows, const DirectionBasis &known, bool deflates);
+  void         refresh_residual();
+  DualSolution solution();
 
   const DualProblem           &problem;
   RunContext                  &context;
   const SolverParameters       parameters;
-  const std::string            method;
+  const SetRules               rules;
   CycleDetector                history;
   CycleDetector::InnerAccuracy inner_accuracy = CycleDetector::none;
   const unsigned long          f_mults_before;
+  const bool                   has_friction; ///< on any rank
 
-  MultiVector              lambda, residual;
-  std::unique_ptr<FreeSet> free_set;
-  KktResidual              kkt;
-  std::vector<double>      negligible; // forces that may be rounding error, see force_rounding()
-  double                   scale = 0.;
-  double                   inner_tolerance;
-  double                   last_kkt    = 0.; // of the last solve on the same set
-  unsigned int             recurrences = 0;  // since the residual was computed as d - F lambda
-  unsigned int             outer       = 0;
-  unsigned int             stalls      = 0;
-  bool                     at_rounding = false;
-
-private:
-  void evaluate(const KrylovResult &inner);
+  MultiVector                 lambda, residual;
+  std::unique_ptr<FreeSet>    free_set;
+  std::unique_ptr<FaceKrylov> krylov; ///< of free_set
+  KktResidual                 kkt;    ///< of the last solve
+  HeldSets                    sets;
+  FrictionSets                friction;
+  std::vector<double> negligible; ///< forces that may be rounding error, see force_rounding()
+  double              scale = 0.;
+  double              inner_tolerance;
+  double              last_kkt    = 0.;   ///< of the last solve on the same sets
+  unsigned int        recurrences = 0;    ///< since the residual was computed as d - F lambda
+  unsigned int        outer       = 0;    ///< number of solves
+  unsigned int        stalls      = 0;    ///< see SetRules::allowed_stalls
+  bool                solved      = true; ///< whether the last solve converged
+  bool                at_rounding = false;
 };
 } // namespace snug::qp
 

@@ -24,7 +24,7 @@ qp::FreeRows strong_rows(const state::StateSolver<dim>  &solver,
  *
  * Where contacts slip, mu = Z y and the rows are Z_0'(B z - c) = D y, see qp::FreeRows: the
  * friction force changes with the normal force. Adjoint states solve the transposed system. Both
- * are solved by qp::ProjectedGcr. Given parts of the multipliers are added to Z y.
+ * are solved by qp::FaceKrylov. Given parts of the multipliers are added to Z y.
  *
  * The dual of the system, min 1/2 mu'F mu - mu'(B K^+ b - c) with G mu = R'b, is solved by PCPG.
  * PCPG uses the factorizations of the state and needs no other one. It first minimizes in the
@@ -54,18 +54,12 @@ private:
                            qp::MultiVector           &residual,
                            const std::vector<double> &tolerances,
                            bool                       deflates) const;
-  template <typename Krylov>
-  bool minimize_by(Krylov                     krylov,
-                   qp::MultiVector           &mu,
-                   qp::MultiVector           &residual,
-                   const std::vector<double> &tolerances) const;
-  bool balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const;
+  bool            balanced(const feti::PrimalVectors &b, const qp::MultiVector &mu) const;
 
   const feti::LoadedProblem         &feti;
   const qp::SolverParameters         parameters;
   const Solves                       solves;
   const std::unique_ptr<qp::FreeSet> free_set;
-  const bool                         is_symmetric; ///< no contact slips
   const qp::DirectionBasis           known;
 };
 } // namespace snug::sensitivity

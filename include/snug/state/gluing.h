@@ -90,8 +90,8 @@ public:
 
   /// Return the friction cones of the owned contacts, for the law of each contact and its area
   /// [length^2].
-  std::vector<qp::FrictionCone> cones(const contact::Contact<dim> &contact,
-                                      const std::vector<double>   &areas) const;
+  qp::FrictionCones cones(const contact::Contact<dim> &contact,
+                          const std::vector<double>   &areas) const;
 
   /**
    * Return the multipliers of q . u = s at each held node and direction, on all ranks, as if

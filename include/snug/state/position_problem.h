@@ -31,7 +31,7 @@ struct PositionProblem
   /// @{
   RowCoefficients<dim>                       rows;          ///< data of the rows of B
   std::unique_ptr<const feti::Linearization> linearization; ///< null: to be computed
-  std::vector<qp::FrictionCone>              cones;         ///< of the contacts with friction
+  qp::FrictionCones                          cones;         ///< of the contacts with friction
   /// @}
 };
 } // namespace snug::state

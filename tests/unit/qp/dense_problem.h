@@ -88,7 +88,7 @@ public:
 
   const RowSet &bounded() const override { return my_bounded; }
 
-  const std::vector<snug::qp::FrictionCone> &cones() const override { return my_cones; }
+  const snug::qp::FrictionCones &cones() const override { return my_cones; }
 
   const MultiVector &d() const override { return my_d; }
 
@@ -129,12 +129,12 @@ public:
   mutable unsigned int       n_faces = 0;
 
 private:
-  unsigned int                        first, end;
-  RowSet                              my_bounded;
-  MultiVector                         my_d;
-  std::vector<snug::qp::FrictionCone> my_cones; ///< of the rank that owns all rows
-  std::vector<double>                 my_diagonal;
-  mutable snug::RunContext            run;
+  unsigned int             first, end;
+  RowSet                   my_bounded;
+  MultiVector              my_d;
+  snug::qp::FrictionCones  my_cones; ///< of the rank that owns all rows
+  std::vector<double>      my_diagonal;
+  mutable snug::RunContext run;
 };
 
 class DenseFace : public snug::qp::FreeSet

@@ -59,7 +59,7 @@ DenseData cycling_data(unsigned int n_cycles = 1)
 
 TEST(ActiveSet, LeavesACycleBySingleSteps)
 {
-  ActiveSetOptions options;
+  SetRules options;
   options.forcing = 1e-3; // exact solves cycle
   const DenseProblem problem(cycling_data());
   const auto solution = ActiveSet(with_tolerance(1e-10), options).solve(problem, WarmStart());
@@ -70,7 +70,7 @@ TEST(ActiveSet, LeavesACycleBySingleSteps)
 
 TEST(ActiveSet, FallsBackToSmalse)
 {
-  ActiveSetOptions options;
+  SetRules options;
   options.forcing      = 1e-3;
   options.single_steps = 0;
   const DenseProblem problem(cycling_data());
@@ -86,7 +86,7 @@ TEST(ActiveSet, FallsBackToSmalse)
 
 TEST(ActiveSet, LeavesSmalseEnoughOfTheFMults)
 {
-  ActiveSetOptions options;
+  SetRules options;
   options.forcing      = 1e-3;
   options.single_steps = 1000;
   auto parameters      = with_tolerance(1e-10);
@@ -103,7 +103,7 @@ TEST(ActiveSet, LeavesSmalseEnoughOfTheFMults)
 TEST(ActiveSet, FallsBackWhereItMakesNoProgress)
 {
   // no set is met again within 60 steps
-  ActiveSetOptions options;
+  SetRules options;
   options.forcing = 1e-6;
   const DenseProblem problem(cycling_data(3));
   const auto solution = ActiveSet(with_tolerance(1e-10), options).solve(problem, WarmStart());
