@@ -17,6 +17,7 @@ SetRules rules_of_friction()
   SetRules rules;
   rules.method         = "friction";
   rules.forcing        = 0.1;
+  rules.settled        = 0.3;
   rules.exact_forcing  = 1e-3;
   rules.many_repairs   = 3;
   rules.allowed_stalls = 12; // directions of slips turn from solve to solve

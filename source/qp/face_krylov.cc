@@ -7,12 +7,12 @@ FaceKrylov::FaceKrylov(const DualProblem    &problem,
                        const DirectionBasis &known,
                        const bool            deflates)
 {
-  const MPI_Comm  comm = problem.context().communicator();
-  const FreeRows &free = free_set.free_rows();
-  if (any(!free.slips().empty(), comm))
+  if (free_set.has_slips())
     gcr.emplace(problem, free_set, deflates);
   else
-    cg.emplace(problem, free_set, known.off(complement(free.rows()), comm), deflates);
+    cg.emplace(problem, free_set,
+               known.off(complement(free_set.free_rows().rows()), problem.context().communicator()),
+               deflates);
 }
 
 KrylovResult FaceKrylov::solve(MultiVector               &lambda,

@@ -160,7 +160,7 @@ void SetIteration::keep_rows(const FreeRows &next)
 {
   // The sets may be the right ones. Solve to at least a digit more, because otherwise each solve on
   // the sets would achieve little.
-  inner_tolerance = std::min(0.1 * inner_tolerance, rules.forcing * kkt.relative);
+  inner_tolerance = std::min(0.1 * inner_tolerance, rules.settled * rules.forcing * kkt.relative);
   // A solve on the same set should do better than halve the residual. Only rounding in recurrence
   // and directions can prevent this, or slips that turn.
   const bool has_stalled = last_kkt > 0. && kkt.relative > 0.5 * last_kkt;
@@ -169,9 +169,10 @@ void SetIteration::keep_rows(const FreeRows &next)
                         false);
   last_kkt = kkt.relative;
   // In the plane the linear problem changes with the sets alone.
-  const bool turns = any(std::any_of(next.slips().begin(), next.slips().end(),
-                                     [](const Slip &s) { return s.cone.n_tangents == 2; }),
-                         context.communicator());
+  const bool turns =
+    has_friction && any(std::any_of(next.slips().begin(), next.slips().end(),
+                                    [](const Slip &s) { return s.cone.n_tangents == 2; }),
+                        context.communicator());
   // Where the residual stalls, begin another Krylov space from a residual computed anew. Deflation
   // has rounding errors of its own.
   if (has_stalled || turns || (has_friction && stalls > 0))

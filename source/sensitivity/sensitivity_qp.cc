@@ -16,6 +16,8 @@ public:
 
   const qp::FreeRows &free_rows() const override { return free; }
 
+  bool has_slips() const override { return whole->has_slips(); }
+
   void project(qp::MultiVector &x) const override
   {
     auto all = problem.extended(x);

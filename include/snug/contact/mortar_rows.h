@@ -58,7 +58,7 @@ private:
     std::vector<unsigned int>   masters; ///< indices of the opposite surface faces
     mortar::MultiplierFunctions functions;
     /// rows with their shares of the multiplier function of each node
-    std::vector<mortar::MultiplierNodes::Shares> shares;
+    std::vector<mortar::MultiplierNodes::Shares> shares = {};
   };
 
   template <typename Number>

@@ -12,6 +12,8 @@ public:
   FetiFreeSet(const Linearization &feti, const qp::FreeRows &free);
 
   const qp::FreeRows &free_rows() const override { return free; }
+
+  bool has_slips() const override { return slides; }
   void                project(qp::MultiVector &x) const override;
   void                project_multipliers(qp::MultiVector &y) const override;
   std::vector<double> deflate(qp::MultiVector &x) const override;

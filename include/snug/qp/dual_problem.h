@@ -29,6 +29,9 @@ public:
 
   virtual const FreeRows &free_rows() const = 0;
 
+  /// Return whether contacts of any rank slip, so that the linear problem is not symmetric.
+  virtual bool has_slips() const = 0;
+
   /// Set x <- P_M x, which is zero outside M, with the G_M of the equations.
   virtual void project(MultiVector &x) const = 0;
 

@@ -14,6 +14,8 @@ struct SetRules
   /// leave as well as exact solutions do, and the directions found on the way are kept. Measured on
   /// contact problems: 0.7 takes up to a third fewer F-mults than 0.1.
   double forcing = 0.7;
+  /// Factor of #forcing where the sets have not changed.
+  double settled = 1.;
   /// The same after #many_repairs changes of sets that left a loaded motion free.
   double       exact_forcing = 0.7;
   unsigned int many_repairs  = std::numeric_limits<unsigned int>::max();

@@ -5,6 +5,7 @@
 
 #include <snug/qp/direction_basis.h>
 #include <snug/qp/dual_problem.h>
+#include <snug/qp/row_set.h>
 
 #include <iostream>
 #include <sstream>
@@ -157,6 +158,11 @@ public:
   {}
 
   const FreeRows &free_rows() const override { return free; }
+
+  bool has_slips() const override
+  {
+    return snug::qp::any(!free.slips().empty(), problem.context().communicator());
+  }
 
   void project(MultiVector &x) const override { subtract_rigid_part(equations, x); }
 
