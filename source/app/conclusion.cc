@@ -47,11 +47,11 @@ values_paired_anew(Search<dim> &search, const OptimizationResult &result, const 
       (!is_paired && problem.drift(result.x) < no_drift))
     return {};
   if (is_paired)
-    return search.evaluator.values(search.evaluator.analysis(result.x).states);
-  search.evaluator.pair(result.x);
+    return search.objective.values(search.analyses.at(result.x).states);
+  search.analyses.pair(result.x);
   try
     {
-      return search.evaluator.values(problem.solve(result.x));
+      return search.objective.values(problem.solve(result.x));
     }
   catch (const SolveError &no_state)
     {
@@ -135,9 +135,9 @@ void report_result(Search<dim>                            &search,
   auto &results = search.results;
   search.finish_first();
   search.warn_of_weak_contacts(result.x);
-  auto       &analysis     = search.evaluator.analysis(result.x);
-  auto       &states       = analysis.states;
-  const auto &of_objective = analysis.gradients.of_response.front();
+  const auto &gradients    = search.objective.gradients(result.x);
+  const auto &of_objective = gradients.of_response.front();
+  auto       &states       = search.analyses.at(result.x).states;
   if (problem.scene.report_linear_reference)
     for (auto &state : states)
       state.linear_f_mults = problem.solver->linear_f_mults(state);
@@ -150,8 +150,8 @@ void report_result(Search<dim>                            &search,
   gradient.method              = to_text(of_objective.method);
   gradient.reason              = of_objective.reason;
   gradient.differentiable      = of_objective.differentiable;
-  gradient.f_mults             = analysis.gradients.f_mults;
-  gradient.seconds             = analysis.gradients.seconds;
+  gradient.f_mults             = gradients.f_mults;
+  gradient.seconds             = gradients.seconds;
   gradient.values              = result.evaluation.gradient;
   results.summary.optimization = {{result}, to_text(result.algorithm)};
   print_end(problem, result, results.first(), states);

@@ -213,7 +213,7 @@ std::string AdaptiveOptimization<dim>::run()
       std::vector<qp::MultiVector> forces;
       for (const auto &state : adapted.states)
         forces.push_back(state.dual.lambda);
-      on_mesh.evaluator.start_from(result.x, forces);
+      on_mesh.analyses.start_from(result.x, forces);
       if (!phase.is_last)
         search(on_mesh, phase.tolerance);
       const bool is_interrupted = result.end == optimization::StopReason::interrupted;

@@ -1,4 +1,4 @@
-#include <snug/app/evaluator.h>
+#include <snug/app/objective.h>
 
 #include <algorithm>
 #include <map>
@@ -19,7 +19,7 @@ constexpr double least_area = 1e-3;
 /// This class represents the contact rows of one load case as linear functions of the design. Its
 /// numbers are the forces and the areas of all rows, and then for each variable their derivatives.
 template <int dim>
-class Evaluator<dim>::LinearRows
+class Objective<dim>::LinearRows
 {
 public:
   LinearRows(const double *numbers, const unsigned int n_rows, const unsigned int n_variables)
@@ -71,14 +71,14 @@ private:
 };
 
 template <int dim>
-bool Evaluator<dim>::measures_contact(const response::Response<dim> &response) const
+bool Objective<dim>::measures_contact(const response::Response<dim> &response) const
 {
   const std::vector<double> none(problem.solver->contact(0).n_rows(), 0.);
   return response.of_contact(*problem.solver, 0, {none, none}).has_value();
 }
 
 template <int dim>
-bool Evaluator<dim>::is_predicted() const
+bool Objective<dim>::is_predicted() const
 {
   const auto &method = problem.scene.gradient.method;
   if (method ? *method != sensitivity::Method::direct
@@ -91,7 +91,7 @@ bool Evaluator<dim>::is_predicted() const
 
 /// Return the LinearRows of all load cases at a design, one after the other. Collective.
 template <int dim>
-std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) const
+std::vector<double> Objective<dim>::linearized_contact(const Analysis<dim> &at) const
 {
   using Numbers             = std::vector<double>;
   const unsigned int n      = problem.shapes->n_variables();
@@ -143,7 +143,7 @@ std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &at) 
  * pressures.
  */
 template <int dim>
-Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<double> &dx) const
+Evaluation Objective<dim>::predicted(const Evaluation &at, const std::vector<double> &dx) const
 {
   const auto                         &solver = *problem.solver;
   const unsigned int                  n      = dx.size();
@@ -173,7 +173,7 @@ Evaluation Evaluator<dim>::predicted(const Evaluation &at, const std::vector<dou
 
 /// Predict quantity @p i and the terms of its maxima, of a response that measures contact.
 template <int dim>
-void Evaluator<dim>::predict(const unsigned int                         i,
+void Objective<dim>::predict(const unsigned int                         i,
                              const std::vector<LinearRows>             &of_cases,
                              const std::vector<response::PressureRows> &rows,
                              Evaluation                                &result) const
@@ -224,13 +224,13 @@ void Evaluator<dim>::predict(const unsigned int                         i,
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                      \
-  template bool Evaluator<dim>::measures_contact(const response::Response<dim> &) const;           \
-  template bool Evaluator<dim>::is_predicted() const;                                              \
-  template std::vector<double> Evaluator<dim>::linearized_contact(const Analysis<dim> &) const;    \
-  template void Evaluator<dim>::predict(unsigned int, const std::vector<LinearRows> &,             \
+  template bool Objective<dim>::measures_contact(const response::Response<dim> &) const;           \
+  template bool Objective<dim>::is_predicted() const;                                              \
+  template std::vector<double> Objective<dim>::linearized_contact(const Analysis<dim> &) const;    \
+  template void Objective<dim>::predict(unsigned int, const std::vector<LinearRows> &,             \
                                         const std::vector<response::PressureRows> &, Evaluation &) \
     const;                                                                                         \
-  template Evaluation Evaluator<dim>::predicted(const Evaluation &, const std::vector<double> &)   \
+  template Evaluation Objective<dim>::predicted(const Evaluation &, const std::vector<double> &)   \
     const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -44,12 +44,12 @@ std::vector<std::string> columns(const ShapeProblem<dim> &problem, const scene::
 /// Return the name of the constraint that the @p values of an infeasible design violate most. If
 /// they violate none, the design violates a limit of its shape, whose entry is returned.
 template <int dim>
-std::string violated(const Evaluator<dim>      &evaluator,
+std::string violated(const Objective<dim>      &objective,
                      const ShapeProblem<dim>   &problem,
                      const std::vector<double> &values,
                      const std::vector<double> &design)
 {
-  const auto name = evaluator.most_violated(values).second;
+  const auto name = objective.most_violated(values).second;
   return name.empty() ? problem.shapes->most_violated_limit(design) : name;
 }
 } // namespace
@@ -73,16 +73,19 @@ SearchRecord<dim>::SearchRecord(Results<dim>            &results,
 
 template <int dim>
 Search<dim>::Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const Design &paired)
-  : problem(problem), record(record), results(record.results), evaluator(problem, paired)
+  : problem(problem)
+  , record(record)
+  , results(record.results)
+  , analyses(problem)
+  , objective(problem, analyses, paired)
 {}
 
 template <int dim>
 void Search<dim>::warn_of_weak_contacts(const Design &design)
 {
-  const auto &analysis = evaluator.analysis(design);
-  for (const auto &gradient : analysis.gradients.of_response)
+  for (const auto &gradient : objective.gradients(design).of_response)
     if (!gradient.differentiable)
-      results.warn_of_weak_contacts(analysis.states,
+      results.warn_of_weak_contacts(analyses.at(design).states,
                                     "; continuing with those of the strongly active contacts");
 }
 
@@ -92,9 +95,9 @@ void Search<dim>::report_first(const Iteration &iteration)
 {
   auto &out              = problem.context.out();
   record.first_violation = iteration.constraint_violation;
-  if (const auto *analysis = evaluator.last(iteration.x); analysis && results.first().empty())
+  if (const auto *analysis = analyses.last(iteration.x); analysis && results.first().empty())
     {
-      const auto &of_objective = analysis->gradients.of_response.front();
+      const auto &of_objective = objective.gradients(iteration.x).of_response.front();
       if (!of_objective.reason.empty())
         out << "gradient method: " << to_text(of_objective.method) << " (auto; "
             << of_objective.reason << ")" << std::endl;
@@ -102,7 +105,7 @@ void Search<dim>::report_first(const Iteration &iteration)
     }
   if (problem.scene.optimization.algorithm == optimization::Algorithm::SQP)
     out << "initial trust region: node displacements of at most half a cell edge"
-        << (evaluator.is_predicted() ? "; contact pressures are predicted from derivatives" : "")
+        << (objective.is_predicted() ? "; contact pressures are predicted from derivatives" : "")
         << std::endl;
   out << io::log_header() << std::endl;
 }
@@ -126,7 +129,7 @@ void Search<dim>::report(const Iteration &iteration, const OptimizationResult &b
   line.design               = iteration.x;
   line.values               = iteration.evaluation.reported;
   if (line.constraint_violation > problem.scene.optimization.constraint_tolerance)
-    line.violated = violated(evaluator, problem, line.values, iteration.x);
+    line.violated = violated(objective, problem, line.values, iteration.x);
   log(io::log_line(line));
   throw_collectively(problem.context.communicator(), [&]() {
     if (problem.context.rank() == 0)
@@ -135,18 +138,52 @@ void Search<dim>::report(const Iteration &iteration, const OptimizationResult &b
   // A replay solves nothing that could be drawn.
   const unsigned int every = problem.scene.optimization.draw_every;
   if (every == 0 || line.iteration == 0 || line.iteration % every != 0 ||
-      !evaluator.last(iteration.x))
+      !analyses.last(iteration.x))
     return;
   finish_first();
-  if (const auto *analysis = evaluator.last(iteration.x))
-    results.draw(line.iteration, analysis->states, analysis->gradients.of_response.front().shape);
+  if (const auto *analysis = analyses.last(iteration.x))
+    results.draw(line.iteration, analysis->states,
+                 objective.gradients(iteration.x).of_response.front().shape);
 }
 
 template <int dim>
 void Search<dim>::finish_first()
 {
   if (results.first().empty())
-    results.add_first(evaluator.first_states(), {});
+    results.add_first(analyses.first_states(), {});
+}
+
+/// Return the problem that the optimizer sees. Each step wraps the one before it.
+template <int dim>
+optimization::DesignProblem Search<dim>::decorated_problem(const Design &start)
+{
+  auto result = objective.design_problem(start);
+  // An interrupted search continues to the end of its evaluation, and needs the gradient of its
+  // best design.
+  result.evaluate = [this, evaluate = result.evaluate](const Design &x) {
+    check_interrupts(problem.context.communicator());
+    problem.context.progress(record.progress.text());
+    auto evaluation = evaluate(x);
+    record.progress.end(evaluation.objective, objective.most_violated(evaluation.reported).first,
+                        evaluation.seconds);
+    return evaluation;
+  };
+  result.differentiate = [this, differentiate =
+                                  result.differentiate](const Design             &x,
+                                                        optimization::Evaluation &evaluation) {
+    differentiate(x, evaluation);
+    warn_of_weak_contacts(x);
+  };
+  std::vector<optimization::LinearLimit> limits;
+  for (const auto &limit : problem.shapes->limits())
+    limits.push_back({limit.row, limit.bound});
+  result = record.journal.journaled(optimization::with_limits(std::move(result), limits));
+  // The evaluations that a restart repeats from the journal are counted as well.
+  result.evaluate = [this, evaluate = result.evaluate](const Design &x) {
+    record.progress.begin();
+    return evaluate(x);
+  };
+  return result;
 }
 
 /// Minimize without a new contact search.
@@ -155,25 +192,6 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
                                                  const OptimizationResult &before,
                                                  const double              tolerance)
 {
-  auto design_problem     = evaluator.design_problem(start);
-  design_problem.evaluate = [&](const Design &x) {
-    check_interrupts(problem.context.communicator());
-    problem.context.progress(record.progress.text());
-    const auto evaluation = evaluator.evaluate(x);
-    record.progress.end(evaluation.objective, evaluator.most_violated(evaluation.reported).first,
-                        evaluation.seconds);
-    return evaluation;
-  };
-  // An interrupted search continues to the end of its evaluation, and needs the gradient of its
-  // best design.
-  design_problem.differentiate = [&](const Design &x, optimization::Evaluation &evaluation) {
-    evaluator.differentiate(x, evaluation);
-    warn_of_weak_contacts(x);
-  };
-  std::vector<optimization::LinearLimit> limits;
-  for (const auto &limit : problem.shapes->limits())
-    limits.push_back({limit.row, limit.bound});
-  design_problem = optimization::with_limits(std::move(design_problem), limits);
   optimization::Hooks hooks;
   hooks.on_iteration = [&](const Iteration &i) { report(i, before); };
   hooks.log          = [&](const std::string &line) { log(line); };
@@ -184,15 +202,9 @@ OptimizationResult Search<dim>::run_with_pairing(const Design             &start
   if (before.evaluations > 0)
     parameters.starts = 1;
 
-  // The evaluations that a restart repeats from the journal are counted as well.
-  auto journaled     = record.journal.journaled(design_problem);
-  journaled.evaluate = [&, evaluate = journaled.evaluate](const Design &x) {
-    record.progress.begin();
-    return evaluate(x);
-  };
-  auto result = optimization::minimize_from_starts(journaled, parameters, hooks);
+  auto result = optimization::minimize_from_starts(decorated_problem(start), parameters, hooks);
   if (result.constraint_violation > parameters.constraint_tolerance)
-    result.violated = violated(evaluator, problem, result.evaluation.reported, result.x);
+    result.violated = violated(objective, problem, result.evaluation.reported, result.x);
   result.iterations += before.iterations;
   result.evaluations += before.evaluations;
   if (before.evaluations > 0)
@@ -217,7 +229,7 @@ bool Search<dim>::update_pairing(const OptimizationResult &result)
   problem.context.out() << "new contact search: the design moved slave nodes away from their "
                            "paired points by up to "
                         << drift << " of a face" << std::endl;
-  evaluator.pair(result.x);
+  analyses.pair(result.x);
   return true;
 }
 

@@ -1,7 +1,7 @@
 #ifndef snug_app_search_h
 #define snug_app_search_h
 
-#include <snug/app/evaluator.h>
+#include <snug/app/objective.h>
 #include <snug/app/results.h>
 #include <snug/app/search_progress.h>
 #include <snug/io/history.h>
@@ -43,7 +43,7 @@ public:
   using Design = typename ShapeProblem<dim>::Design;
 
   /// Keep references to @p problem and @p record. @p paired is the design of the contact search of
-  /// @p problem. The first design may be solved, see Evaluator. Collective.
+  /// @p problem. The first design may be solved, see Objective. Collective.
   Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const Design &paired);
 
   /**
@@ -68,10 +68,13 @@ public:
   ShapeProblem<dim> &problem;
   SearchRecord<dim> &record;
   Results<dim>      &results;
-  Evaluator<dim>     evaluator;
+  Analyses<dim>      analyses;
+  Objective<dim>     objective;
 
 private:
   using Result = optimization::OptimizationResult;
+
+  optimization::DesignProblem decorated_problem(const Design &start);
 
   void   report(const optimization::Iteration &iteration, const Result &before);
   void   report_first(const optimization::Iteration &iteration);

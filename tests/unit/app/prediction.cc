@@ -1,4 +1,4 @@
-#include <snug/app/evaluator.h>
+#include <snug/app/objective.h>
 #include <snug/scene/read_scene.h>
 
 #include <gtest/gtest.h>
@@ -76,8 +76,9 @@ struct Told
                                                         scene.degree,
                                                         scene::idealization(scene),
                                                         scene.tearing))
-    , evaluator(shape_problem, shape_problem.shapes->start())
-    , problem(evaluator.design_problem(shape_problem.shapes->start()))
+    , analyses(shape_problem)
+    , objective(shape_problem, analyses, shape_problem.shapes->start())
+    , problem(objective.design_problem(shape_problem.shapes->start()))
   {}
 
   optimization::Evaluation at(const Design &x)
@@ -91,7 +92,8 @@ struct Told
   const scene::Scene          scene;
   RunContext                  context;
   app::ShapeProblem<2>        shape_problem;
-  app::Evaluator<2>           evaluator;
+  app::Analyses<2>            analyses;
+  app::Objective<2>           objective;
   optimization::DesignProblem problem;
 };
 

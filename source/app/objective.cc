@@ -1,4 +1,4 @@
-#include <snug/app/evaluator.h>
+#include <snug/app/objective.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,15 @@
 
 namespace snug::app {
 template <int dim>
-Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem, const Design &paired)
-  : problem(problem), starts(problem.shapes->first_steps())
+Objective<dim>::Objective(const ShapeProblem<dim> &problem,
+                          Analyses<dim>           &analyses,
+                          const Design            &paired)
+  : problem(problem), analyses(analyses)
 {
   const auto start    = problem.shapes->start();
   const bool re_pairs = is_relative_to_first() && paired != start;
   if (re_pairs)
-    pair(start);
+    analyses.pair(start);
   Quantity objective;
   // The problem owns the objective.
   objective.response    = {std::shared_ptr<void>(), problem.objective.get()};
@@ -23,11 +25,11 @@ Evaluator<dim>::Evaluator(ShapeProblem<dim> &problem, const Design &paired)
   for (const auto &[name, limit] : problem.scene.optimization.constraints)
     add_quantity(make_constraint(name, limit));
   if (re_pairs)
-    pair(paired);
+    analyses.pair(paired);
 }
 
 template <int dim>
-void Evaluator<dim>::add_quantity(Quantity quantity)
+void Objective<dim>::add_quantity(Quantity quantity)
 {
   if (quantity.load_cases.size() == 1 && quantity.combination.n_maxima() == 1)
     quantity.combination = {}; // a maximum of one value
@@ -41,7 +43,7 @@ void Evaluator<dim>::add_quantity(Quantity quantity)
 }
 
 template <int dim>
-std::vector<double> Evaluator<dim>::Quantity::term_factors(const unsigned int k) const
+std::vector<double> Objective<dim>::Quantity::term_factors(const unsigned int k) const
 {
   auto factors = weights;
   // The second maximum of a range is that of the negative values.
@@ -52,7 +54,7 @@ std::vector<double> Evaluator<dim>::Quantity::term_factors(const unsigned int k)
 
 /// Return whether a limit needs the states of the first design.
 template <int dim>
-bool Evaluator<dim>::is_relative_to_first() const
+bool Objective<dim>::is_relative_to_first() const
 {
   const auto &constraints = problem.scene.optimization.constraints;
   return std::any_of(constraints.begin(), constraints.end(), [&](const auto &constraint) {
@@ -63,15 +65,7 @@ bool Evaluator<dim>::is_relative_to_first() const
 }
 
 template <int dim>
-const typename Evaluator<dim>::States &Evaluator<dim>::first_states()
-{
-  if (of_first.empty())
-    of_first = problem.solve(problem.shapes->start());
-  return of_first;
-}
-
-template <int dim>
-typename Evaluator<dim>::Quantity Evaluator<dim>::make_constraint(const std::string &name,
+typename Objective<dim>::Quantity Objective<dim>::make_constraint(const std::string &name,
                                                                   const std::string &limit)
 {
   const auto of    = scene::constraint_name(problem.scene, name);
@@ -97,7 +91,7 @@ typename Evaluator<dim>::Quantity Evaluator<dim>::make_constraint(const std::str
   States geometry(1); // without a solution
   geometry.front().positions = problem.positions(problem.shapes->start());
   if (constraint.response->needs_solution())
-    constraint.target *= constraint.combined(values(constraint, first_states())).value;
+    constraint.target *= constraint.combined(values(constraint, analyses.first_states())).value;
   else
     constraint.target *= constraint.response->value(*problem.solver, geometry.front());
   return constraint;
@@ -105,7 +99,7 @@ typename Evaluator<dim>::Quantity Evaluator<dim>::make_constraint(const std::str
 
 /// Return the values of the response of a quantity in its load cases.
 template <int dim>
-std::vector<double> Evaluator<dim>::values(const Quantity &quantity, const States &states) const
+std::vector<double> Objective<dim>::values(const Quantity &quantity, const States &states) const
 {
   std::vector<double> result;
   for (const unsigned int c : quantity.load_cases)
@@ -114,15 +108,9 @@ std::vector<double> Evaluator<dim>::values(const Quantity &quantity, const State
 }
 
 template <int dim>
-optimization::Evaluation Evaluator<dim>::evaluate(const Design &design)
+optimization::Evaluation Objective<dim>::evaluate(const Design &design)
 {
-  current = Analysis<dim>{design, problem.solve(design, starts.at(design))};
-  const auto                  &states = current->states;
-  std::vector<qp::MultiVector> forces;
-  for (const auto &state : states)
-    forces.push_back(state.dual.lambda);
-  starts.add(design, std::move(forces));
-
+  const States            &states = analyses.solve(design).states;
   optimization::Evaluation evaluation;
   const auto               found = values(states);
   evaluation.objective           = found.objective;
@@ -141,60 +129,57 @@ optimization::Evaluation Evaluator<dim>::evaluate(const Design &design)
 }
 
 template <int dim>
-Analysis<dim> &Evaluator<dim>::analysis(const Design &design)
+const sensitivity::Gradients<dim> &Objective<dim>::gradients(const Design &design)
 {
-  if (!last(design))
-    current = Analysis<dim>{design, problem.solve(design, starts.at(design))};
-  if (current->gradients.of_response.empty())
+  const auto *known = analyses.last(design);
+  if (known && !known->gradients.of_response.empty() && differentiated == design)
+    return combined;
+  auto parameters = problem.scene.gradient;
+  if (parameters.method == sensitivity::Method::energy) // does not hold for every constraint
+    parameters.method.reset();
+  if (is_predicted())
+    parameters.method = sensitivity::Method::direct;
+  const auto &found = analyses.gradients(design, measured, parameters);
+  combined          = {};
+  combined.f_mults  = found.f_mults;
+  combined.seconds  = found.seconds;
+  std::vector<sensitivity::Gradient<dim>> terms;
+  for (const Quantity &quantity : quantities)
     {
-      auto parameters = problem.scene.gradient;
-      if (parameters.method == sensitivity::Method::energy) // does not hold for every constraint
-        parameters.method.reset();
-      if (is_predicted())
-        parameters.method = sensitivity::Method::direct;
-      current->gradients =
-        sensitivity::gradients(problem.load_cases(current->states, design, parameters), measured);
-      auto                                   &of_cases = current->gradients.of_response;
-      std::vector<sensitivity::Gradient<dim>> combined, terms;
-      for (const Quantity &quantity : quantities)
-        {
-          const auto factors = quantity.combined(values(quantity, current->states)).factors;
-          combined.push_back(sensitivity::weighted_sum(factors, of_cases, quantity.first));
-          for (unsigned int k = 0; k < quantity.combination.n_maxima(); ++k)
-            for (unsigned int c = 0; c < factors.size(); ++c)
-              terms.push_back(sensitivity::weighted_sum({quantity.term_factors(k)[c]}, of_cases,
-                                                        quantity.first + c));
-        }
-      combined.insert(combined.end(), terms.begin(), terms.end());
-      of_cases = std::move(combined);
+      const auto factors = quantity.combined(values(quantity, analyses.at(design).states)).factors;
+      combined.of_response.push_back(
+        sensitivity::weighted_sum(factors, found.of_response, quantity.first));
+      for (unsigned int k = 0; k < quantity.combination.n_maxima(); ++k)
+        for (unsigned int c = 0; c < factors.size(); ++c)
+          terms.push_back(sensitivity::weighted_sum({quantity.term_factors(k)[c]},
+                                                    found.of_response, quantity.first + c));
     }
-  // The solver may have been at another design since, for example at the first one.
-  for (const auto &state : current->states)
-    problem.solver->restore(state);
-  return *current;
+  combined.of_response.insert(combined.of_response.end(), terms.begin(), terms.end());
+  differentiated = design;
+  return combined;
 }
 
 template <int dim>
-void Evaluator<dim>::differentiate(const Design &design, optimization::Evaluation &evaluation)
+void Objective<dim>::differentiate(const Design &design, optimization::Evaluation &evaluation)
 {
-  const auto &at      = analysis(design);
-  evaluation.gradient = at.gradients.of_response.front().values;
+  const auto &found   = gradients(design);
+  evaluation.gradient = found.of_response.front().values;
   evaluation.jacobian.clear();
-  for (unsigned int i = 1; i < at.gradients.of_response.size(); ++i)
+  for (unsigned int i = 1; i < found.of_response.size(); ++i)
     {
-      evaluation.jacobian.push_back(at.gradients.of_response[i].values);
+      evaluation.jacobian.push_back(found.of_response[i].values);
       if (i < quantities.size())
         for (double &entry : evaluation.jacobian.back())
           entry *= quantities[i].sign();
     }
   if (is_predicted())
-    evaluation.linearization = linearized_contact(at);
-  evaluation.f_mults += at.gradients.f_mults;
+    evaluation.linearization = linearized_contact(analyses.at(design));
+  evaluation.f_mults += found.f_mults;
   evaluation.seconds = problem.context.seconds();
 }
 
 template <int dim>
-DesignValues Evaluator<dim>::values(const States &states) const
+DesignValues Objective<dim>::values(const States &states) const
 {
   DesignValues        result;
   std::vector<double> terms;
@@ -221,7 +206,7 @@ DesignValues Evaluator<dim>::values(const States &states) const
 
 template <int dim>
 std::pair<double, std::string>
-Evaluator<dim>::most_violated(const std::vector<double> &values) const
+Objective<dim>::most_violated(const std::vector<double> &values) const
 {
   std::pair<double, std::string> result = {0., ""};
   const std::size_t              first  = values.size() + 1 - quantities.size();
@@ -240,7 +225,7 @@ Evaluator<dim>::most_violated(const std::vector<double> &values) const
 
 /// Return the maxima in the objective and the constraints. Their terms follow the constraints.
 template <int dim>
-std::vector<optimization::Maximum> Evaluator<dim>::maxima() const
+std::vector<optimization::Maximum> Objective<dim>::maxima() const
 {
   std::vector<optimization::Maximum> result;
   auto                               begin = static_cast<unsigned int>(quantities.size()) - 1;
@@ -255,7 +240,7 @@ std::vector<optimization::Maximum> Evaluator<dim>::maxima() const
 }
 
 template <int dim>
-optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
+optimization::DesignProblem Objective<dim>::design_problem(const Design &start)
 {
   optimization::DesignProblem result;
   result.lower         = problem.shapes->lower_bounds();
@@ -266,13 +251,8 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
   result.differentiate = [this](const Design &x, optimization::Evaluation &evaluation) {
     differentiate(x, evaluation);
   };
-  result.memory   = [this]() { return starts.bytes(); };
-  result.remember = [this](const std::string &bytes) {
-    std::vector<unsigned int> n_owned; // per load case
-    for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
-      n_owned.push_back(problem.solver->gluing(c).layout().n_owned());
-    return starts.read(bytes, n_owned);
-  };
+  result.memory   = [this]() { return analyses.memory(); };
+  result.remember = [this](const std::string &bytes) { return analyses.remember(bytes); };
   if (is_predicted())
     result.predict = [this](const optimization::Evaluation &at, const std::vector<double> &dx) {
       return predicted(at, dx);
@@ -294,15 +274,6 @@ optimization::DesignProblem Evaluator<dim>::design_problem(const Design &start)
   return result;
 }
 
-template <int dim>
-void Evaluator<dim>::pair(const Design &at)
-{
-  problem.solver->pair(problem.positions(at));
-  current.reset();
-  of_first.clear();
-  starts.clear();
-}
-
-template class Evaluator<2>;
-template class Evaluator<3>;
+template class Objective<2>;
+template class Objective<3>;
 } // namespace snug::app

@@ -1,25 +1,13 @@
-#ifndef snug_app_evaluator_h
-#define snug_app_evaluator_h
+#ifndef snug_app_objective_h
+#define snug_app_objective_h
 
-#include <snug/app/shape_problem.h>
-#include <snug/app/warm_start_extrapolation.h>
+#include <snug/app/analyses.h>
 #include <snug/optimization/design_problem.h>
 #include <snug/optimization/limit.h>
 
 #include <optional>
 
 namespace snug::app {
-/// This struct holds the contact analyses of a design and the gradients there.
-template <int dim>
-struct Analysis
-{
-  typename ShapeProblem<dim>::Design design;
-  typename ShapeProblem<dim>::States states;
-  /// of the objective, of the constraints and of the terms of their maxima; empty until
-  /// Evaluator::analysis() computes them
-  sensitivity::Gradients<dim> gradients = {};
-};
-
 /// This struct holds the objective and the constraints of a design without derivatives.
 struct DesignValues
 {
@@ -30,42 +18,32 @@ struct DesignValues
   std::string         violated;       ///< name of the constraint with the maximum violation
 };
 
-/**
- * This class evaluates the designs of a scene: the objective and the constraints with their
- * gradients as functions of the design. The solver starts from forces extrapolated from earlier
- * designs, which changes values within the tolerance of the solver only.
- */
+/// This class represents the objective and the constraints of a scene as functions of the design,
+/// of which it gives the values and the gradients.
 template <int dim>
-class Evaluator
+class Objective
 {
 public:
   using Design = typename ShapeProblem<dim>::Design;
   using States = typename ShapeProblem<dim>::States;
 
-  /// Read the constraints. @p paired is the design at which @p problem has searched contact. The
-  /// first design is solved, with a contact search of its own, if a limit is relative to its value.
-  /// Collective.
-  Evaluator(ShapeProblem<dim> &problem, const Design &paired);
+  /// Read the constraints. @p paired is the design of the last contact search of @p analyses of
+  /// @p problem. The first design is solved, with a contact search of its own, if a limit is
+  /// relative to its value. Collective.
+  Objective(const ShapeProblem<dim> &problem, Analyses<dim> &analyses, const Design &paired);
 
-  /// Return the values, without gradients. Collective. @throws TangledMesh, SolveError.
+  /// Solve a design and return the values, without gradients. Collective. @throws TangledMesh,
+  /// SolveError.
   optimization::Evaluation evaluate(const Design &design);
 
   /// Add the gradients to @p evaluation of @p design. The design is solved again unless it is the
-  /// last one that was evaluated. Collective. @throws TangledMesh, SolveError.
+  /// last one that was analysed. Collective. @throws TangledMesh, SolveError.
   void differentiate(const Design &design, optimization::Evaluation &evaluation);
 
-  /// Return the analysis of @p design with gradients, which is computed unless @p design is the
-  /// last one evaluated. It is valid until the next evaluation or contact search, and the solver is
-  /// at the geometry of its states. Collective.
+  /// Return the gradients at @p design of the objective, of the constraints and of the terms of
+  /// their maxima. They are valid until another design is analysed. Collective.
   /// @throws TangledMesh, SolveError.
-  Analysis<dim> &analysis(const Design &design);
-
-  /// Return the analysis of the last design evaluated if that is @p design, else null, as during
-  /// the replay of a journal.
-  const Analysis<dim> *last(const Design &design) const
-  {
-    return current && current->design == design ? &*current : nullptr;
-  }
+  const sensitivity::Gradients<dim> &gradients(const Design &design);
 
   /// Return the problem of an optimizer that begins at @p start. The result refers to this object.
   optimization::DesignProblem design_problem(const Design &start);
@@ -78,21 +56,6 @@ public:
   /// the responses that the constraints limit. Return {0, ""} if the values satisfy all
   /// constraints.
   std::pair<double, std::string> most_violated(const std::vector<double> &values) const;
-
-  /// Run a new contact search at @p design, after which earlier states are invalid.
-  /// Collective.
-  void pair(const Design &design);
-
-  /// Let the solver at designs near @p design start from forces of each load case, n_owned x 1.
-  void start_from(const Design &design, const std::vector<qp::MultiVector> &forces)
-  {
-    starts.add(design, forces);
-  }
-
-  /// Return the states of the first design. If they are not known, they are solved
-  /// without starts, see ShapeProblem::solve().
-  /// The last contact search must have been at the first design. Collective.
-  const States &first_states();
 
   /// Return whether the contact forces and areas of a design are used as linear functions of the
   /// variables, see predicted(). They are if the objective or a constraint depends on the state by
@@ -142,12 +105,12 @@ private:
                               optimization::Evaluation                  &result) const;
   std::vector<optimization::Maximum> maxima() const;
 
-  ShapeProblem<dim>                      &problem;
-  std::vector<Quantity>                   quantities; ///< the objective, then the constraints
-  std::vector<sensitivity::Measured<dim>> measured;   ///< responses of the quantities
-  WarmStartExtrapolation                  starts;
-  States                                  of_first;
-  std::optional<Analysis<dim>>            current;
+  const ShapeProblem<dim>                &problem;
+  Analyses<dim>                          &analyses;
+  std::vector<Quantity>                   quantities;     ///< the objective, then the constraints
+  std::vector<sensitivity::Measured<dim>> measured;       ///< responses of the quantities
+  Design                                  differentiated; ///< design of the combined gradients
+  sensitivity::Gradients<dim>             combined;       ///< see gradients()
 
   bool                     measures_contact(const response::Response<dim> &response) const;
   std::vector<double>      linearized_contact(const Analysis<dim> &at) const;
