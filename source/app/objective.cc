@@ -131,18 +131,19 @@ optimization::Evaluation Objective<dim>::evaluate(const Design &design)
 template <int dim>
 const sensitivity::Gradients<dim> &Objective<dim>::gradients(const Design &design)
 {
-  const auto *known = analyses.last(design);
-  if (known && !known->gradients.of_response.empty() && differentiated == design)
-    return combined;
-  auto parameters = problem.scene.gradient;
+  const auto *last       = analyses.last(design);
+  const bool  is_known   = last && !last->gradients.of_response.empty() && differentiated == design;
+  auto        parameters = problem.scene.gradient;
   if (parameters.method == sensitivity::Method::energy) // does not hold for every constraint
     parameters.method.reset();
   if (is_predicted())
     parameters.method = sensitivity::Method::direct;
   const auto &found = analyses.gradients(design, measured, parameters);
-  combined          = {};
-  combined.f_mults  = found.f_mults;
-  combined.seconds  = found.seconds;
+  if (is_known)
+    return combined;
+  combined         = {};
+  combined.f_mults = found.f_mults;
+  combined.seconds = found.seconds;
   std::vector<sensitivity::Gradient<dim>> terms;
   for (const Quantity &quantity : quantities)
     {

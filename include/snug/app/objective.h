@@ -41,7 +41,8 @@ public:
   void differentiate(const Design &design, optimization::Evaluation &evaluation);
 
   /// Return the gradients at @p design of the objective, of the constraints and of the terms of
-  /// their maxima. They are valid until another design is analysed. Collective.
+  /// their maxima. They are valid until another design is analysed. The solver is then at the
+  /// geometry of the design's states. Collective.
   /// @throws TangledMesh, SolveError.
   const sensitivity::Gradients<dim> &gradients(const Design &design);
 
