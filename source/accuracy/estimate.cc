@@ -97,7 +97,7 @@ public:
     };
     LoadedDisplacement<dim> z;
     z.displacement = sum(at_nodes(continuous, column[j]), -derivative.stiffness, u.displacement);
-    if (derivative.has_motion)
+    if (derivative.motion.n_columns() > 0)
       z.displacement = sum(z.displacement, -1., at_nodes(derivative.motion, 0));
     const auto &gluing  = solver.gluing(load_case);
     const auto &contact = solver.contact(load_case);

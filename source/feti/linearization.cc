@@ -235,17 +235,9 @@ void Linearization::add_compliance(const double           factor,
       y(row, k) += factor * D[row] * x(row, k);
 }
 
-/// Return the number of columns of @p v. A rank without subdomains has no vectors and takes the
-/// number from other ranks.
-unsigned int Linearization::n_columns(const PrimalVectors &v) const
-{
-  return dealii::Utilities::MPI::max(v.empty() ? 0 : v.front().n_columns(),
-                                     context().communicator());
-}
-
 qp::MultiVector Linearization::multiply_B(const PrimalVectors &v) const
 {
-  qp::MultiVector local(layout().n_local(), n_columns(v));
+  qp::MultiVector local(layout().n_local(), v.n_columns());
   for (unsigned int s = 0; s < systems.size(); ++s)
     add_product(rows[s], v[s], local);
   return layout().to_owned(local);
@@ -254,10 +246,10 @@ qp::MultiVector Linearization::multiply_B(const PrimalVectors &v) const
 PrimalVectors Linearization::multiply_Bt(const qp::MultiVector &lambda) const
 {
   const qp::MultiVector local = layout().to_local(lambda);
-  PrimalVectors         v;
+  PrimalVectors         v(lambda.n_columns());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      v.emplace_back(systems[s].n_dofs(), lambda.n_columns());
+      v.emplace_back(systems[s].n_dofs());
       add_transposed(rows[s], local, v.back());
     }
   return v;
@@ -266,10 +258,10 @@ PrimalVectors Linearization::multiply_Bt(const qp::MultiVector &lambda) const
 /// No communication is needed: each subdomain is solved on its rank.
 PrimalVectors Linearization::apply_inverse(const PrimalVectors &right_hand_side) const
 {
-  PrimalVectors x;
+  PrimalVectors x(right_hand_side.n_columns());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      x.emplace_back(systems[s].n_dofs(), right_hand_side[s].n_columns());
+      x.emplace_back(systems[s].n_dofs());
       operators.factors[s]->inverse.apply(right_hand_side[s], x.back());
     }
   return x;
@@ -277,7 +269,7 @@ PrimalVectors Linearization::apply_inverse(const PrimalVectors &right_hand_side)
 
 qp::MultiVector Linearization::rigid_part(const PrimalVectors &b) const
 {
-  const unsigned int k = n_columns(b), m = table().n_modes;
+  const unsigned int k = b.n_columns(), m = table().n_modes;
   qp::MultiVector    result(table().n_kernel(), k);
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (unsigned int j = 0; j < k; ++j)
@@ -294,9 +286,7 @@ PrimalVectors Linearization::recover(PrimalVectors          b,
 {
   // K^+ (b - B' lambda) solves the equations of a subdomain only if e = G lambda. With K_rho, an
   // unbalanced rest loads the fixing nodes.
-  const PrimalVectors forces = multiply_Bt(lambda);
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    b[s].add(-1., forces[s]);
+  b.add(-1., multiply_Bt(lambda));
   PrimalVectors u = apply_inverse(b);
   add_rigid(alpha, u);
   return u;
@@ -319,7 +309,7 @@ void Linearization::add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) co
 /// its own loads, even where the loads of the body cancel.
 std::vector<double> Linearization::gross_rigid_part(const PrimalVectors &b) const
 {
-  const unsigned int  k = n_columns(b);
+  const unsigned int  k = b.n_columns();
   std::vector<double> largest(k, 0.);
   for (unsigned int s = 0; s < b.size(); ++s)
     for (unsigned int j = 0; j < k; ++j)

@@ -53,8 +53,7 @@ public:
                                         const state::ContactState<dim> &state) const override
   {
     FieldDerivative<dim> result;
-    result.motion     = torn(solver, nodal_motion(solver, state));
-    result.has_motion = true;
+    result.motion = torn(solver, nodal_motion(solver, state));
     return result;
   }
 

@@ -70,9 +70,7 @@ private:
     for (unsigned int i = 0; i < forces.n_rows(); ++i)
       if (linear.compliance(i) > 0.)
         forces(i) = stiffness * state.dual.lambda(i);
-    const auto by_u = linear.multiply_Bt(forces);
-    for (unsigned int s = 0; s < by_u.size(); ++s)
-      partials.u[s].add(1., by_u[s]);
+    partials.u.add(1., linear.multiply_Bt(forces));
     const auto of_u = solver.gluing(state.load_case).spring_forces(state.dual.lambda.column(0));
     solver.springs().add_energy_gradient(state.positions, of_u, state.displacement, of_u,
                                          state.displacement, stiffness / 2., partials.positions);
@@ -85,9 +83,7 @@ private:
                    Partials<dim>                 &partials) const
   {
     const double work = -stiffness - load;
-    const auto   f_T  = state::thermal_loads(solver, state);
-    for (unsigned int s = 0; s < f_T.size(); ++s)
-      partials.u[s].add(work, f_T[s]);
+    partials.u.add(work, state::thermal_loads(solver, state));
     state::add_thermal_gradient(solver, state, work, stiffness, partials.positions);
   }
 

@@ -85,11 +85,9 @@ private:
     qp::MultiVector slips(feti.n_owned(), 0); // at the end of the step
     for (const unsigned int i : places)
       slips.append(of_slips[k].count(i) > 0 ? of_slips[k][i] : qp::MultiVector(feti.n_owned()));
-    auto       right = state_partials(problem.solver, problem.state, partials);
-    const auto B     = feti.linearization().multiply_Bt(slips);
+    auto right = state_partials(problem.solver, problem.state, partials);
+    right.primal.add(1., feti.linearization().multiply_Bt(slips));
     slips.add(1., of_step);
-    for (unsigned int s = 0; s < right.primal.size(); ++s)
-      right.primal[s].add(1., B[s]);
     auto adjoint = TangentSystem(feti, strong_rows(problem.solver, problem.state).transpose(),
                                  problem.solver.model().solver, problem.parameters.solves,
                                  problem.state.dual.directions)

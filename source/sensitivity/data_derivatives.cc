@@ -267,8 +267,9 @@ KktVectors data_derivatives(const state::StateSolver<dim>       &solver,
   const auto         rows      = solver.rows(state.positions, state.load_case);
   const auto         tractions = solver.resultants().tractions(state.positions);
   KktVectors         result;
+  result.primal = feti::PrimalVectors(k);
   for (const auto &u : state.u)
-    result.primal.emplace_back(u.n_rows(), k);
+    result.primal.emplace_back(u.n_rows());
   qp::MultiVector Bu(layout.n_local(), k);
   result.dual = qp::MultiVector(layout.n_owned(), k);
   std::unique_ptr<elasticity::SemiAnalytic<dim>> differences;

@@ -36,8 +36,9 @@ KktVectors state_partials(const state::StateSolver<dim>    &solver,
   KktVectors   result;
   unsigned int k = partials.size();
   result.dual    = qp::MultiVector(state.dual.lambda.n_rows(), k);
+  result.primal  = feti::PrimalVectors(k);
   for (const auto &u : state.u)
-    result.primal.emplace_back(u.n_rows(), k);
+    result.primal.emplace_back(u.n_rows());
   for (unsigned int j = 0; j < k; ++j)
     {
       for (unsigned int s = 0; s < partials[j].u.size(); ++s)
@@ -50,12 +51,8 @@ KktVectors state_partials(const state::StateSolver<dim>    &solver,
     }
   if (std::any_of(partials.begin(), partials.end(),
                   [](const auto &of) { return !of.slips.empty(); }))
-    {
-      const auto through_slips =
-        solver.feti(state).linearization().multiply_Bt(slip_partials(solver, state, partials));
-      for (unsigned int s = 0; s < through_slips.size(); ++s)
-        result.primal[s].add(1., through_slips[s]);
-    }
+    result.primal.add(1., solver.feti(state).linearization().multiply_Bt(
+                            slip_partials(solver, state, partials)));
   return result;
 }
 

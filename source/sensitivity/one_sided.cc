@@ -9,19 +9,19 @@ namespace {
 KktVectors column_of(const KktVectors &x, unsigned int j)
 {
   KktVectors column;
-  for (const auto &part : x.primal)
-    column.primal.push_back(part.columns_from(j, 1));
-  column.dual = x.dual.columns_from(j, 1);
+  column.primal = x.primal.columns_from(j, 1);
+  column.dual   = x.dual.columns_from(j, 1);
   if (x.given.n_columns() > 0)
     column.given = x.given.columns_from(j, 1);
   return column;
 }
 
 /// Compute x <- [x, -x].
-void append_negative(qp::MultiVector &x)
+template <typename Vectors>
+void append_negative(Vectors &x)
 {
-  qp::MultiVector negative(x.n_rows(), x.n_columns());
-  negative.add(-1., x);
+  auto negative = x;
+  negative.add(-2., x);
   x.append(negative);
 }
 
@@ -72,9 +72,8 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
   if (state.weak_contacts == 0)
     return linear;
   KktVectors result;
-  result.dual = qp::MultiVector(feti.n_owned(), 0);
-  for (const auto &part : data.primal)
-    result.primal.emplace_back(part.n_rows(), 0);
+  result.dual   = qp::MultiVector(feti.n_owned(), 0);
+  result.primal = data.primal.columns_from(0, 0);
   for (unsigned int j = 0; j < data.dual.n_columns(); ++j)
     {
       const auto data_j = column_of(data, j);
@@ -85,8 +84,7 @@ KktVectors directional_derivatives(const state::StateSolver<dim>  &solver,
         return solve_from(problem, feti, parameters, data_j, column_of(linear, j));
       }();
       result.dual.append(column.dual);
-      for (unsigned int s = 0; s < result.primal.size(); ++s)
-        result.primal[s].append(column.primal[s]);
+      result.primal.append(column.primal);
     }
   return result;
 }
@@ -99,8 +97,7 @@ std::vector<OneSided> one_sided_gradients(const GradientProblem<dim> &problem,
   auto               both = residual_derivatives(problem);
   append_negative(both.dual);
   append_negative(both.given);
-  for (auto &part : both.primal)
-    append_negative(part);
+  append_negative(both.primal);
   const auto partials      = partials_of(problem, responses);
   const auto through_state = products(state_partials(problem.solver, problem.state, partials),
                                       directional_derivatives(problem.solver, problem.state, both),

@@ -91,9 +91,7 @@ void add_residual_gradient(const state::StateSolver<dim>  &solver,
                            unsigned int                    j,
                            mesh::Field<dim>               &gradient)
 {
-  feti::PrimalVectors w;
-  for (const auto &part : adjoint.primal)
-    w.push_back(part.columns_from(j, 1));
+  const auto w = adjoint.primal.columns_from(j, 1);
   state::add_stiffness_gradient(solver, state, w, -1., gradient);
   state::add_load_gradient(solver, state, w, 1., gradient);
   add_rows(solver, state, adjoint, j, gradient);

@@ -115,10 +115,8 @@ bool TangentSystem::minimize(qp::MultiVector           &mu,
 qp::MultiVector TangentSystem::start_residual(const KktVectors      &right_hand_sides,
                                               const qp::MultiVector &mu) const
 {
-  auto       unbalanced = right_hand_sides.primal;
-  const auto forces     = feti.linearization().multiply_Bt(mu);
-  for (unsigned int s = 0; s < unbalanced.size(); ++s)
-    unbalanced[s].add(-1., forces[s]);
+  auto unbalanced = right_hand_sides.primal;
+  unbalanced.add(-1., feti.linearization().multiply_Bt(mu));
   auto residual = feti.linearization().multiply_B(feti.linearization().apply_inverse(unbalanced));
   residual.add(-1., right_hand_sides.dual);
   feti.linearization().add_compliance(-1., mu, residual);
@@ -129,10 +127,8 @@ KktVectors TangentSystem::solve(const KktVectors &right_hand_sides) const
 {
   if (right_hand_sides.given.n_columns() > 0)
     {
-      auto       others = right_hand_sides;
-      const auto forces = feti.linearization().multiply_Bt(others.given);
-      for (unsigned int s = 0; s < forces.size(); ++s)
-        others.primal[s].add(-1., forces[s]);
+      auto others = right_hand_sides;
+      others.primal.add(-1., feti.linearization().multiply_Bt(others.given));
       others.given = qp::MultiVector(0, 0);
       auto result  = solve(others);
       result.dual.add(1., right_hand_sides.given);

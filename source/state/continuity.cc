@@ -9,7 +9,7 @@ namespace snug::state {
 std::vector<double> energy_norms(const feti::LoadedProblem &feti, const feti::PrimalVectors &u)
 {
   // A rank may have no subdomain, so take the number of columns from all ranks.
-  const unsigned int  n = u.empty() ? 0 : u.front().n_columns();
+  const unsigned int  n = u.n_columns();
   std::vector<double> squares(dealii::Utilities::MPI::max(n, feti.context().communicator()), 0.);
   for (unsigned int s = 0; s < u.size(); ++s)
     {
@@ -38,8 +38,6 @@ void make_continuous(const feti::LoadedProblem &feti,
     if (feti.linearization().contact_rows()[i] || feti.linearization().compliance(i) > 0.)
       for (unsigned int j = 0; j < jumps.n_columns(); ++j)
         jumps(i, j) = 0.;
-  const auto change = feti.linearization().multiply_Bt(jumps);
-  for (unsigned int s = 0; s < u.size(); ++s)
-    u[s].add(-1., change[s]);
+  u.add(-1., feti.linearization().multiply_Bt(jumps));
 }
 } // namespace snug::state

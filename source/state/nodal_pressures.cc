@@ -35,7 +35,7 @@ std::vector<Line> lines_of(const std::vector<unsigned int> &nodes)
         {
           const unsigned int last = first + 2 * stride;
           result.push_back({{{std::min(nodes[first], nodes[last]), nodes[first + stride],
-                             std::max(nodes[first], nodes[last])}}});
+                              std::max(nodes[first], nodes[last])}}});
         }
   return result;
 }

@@ -261,8 +261,9 @@ void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool>
       for (unsigned int c = 0; c < loads.size(); ++c)
         {
           const auto f = assemblers[s]->load(positions, c, tractions);
-          loads[c].resize(systems.size());
-          loads[c][s] = qp::MultiVector(system.n_dofs());
+          // At the first geometry all subdomains have moved.
+          if (loads[c].size() == s)
+            loads[c].emplace_back(system.n_dofs());
           std::copy(f.begin(), f.end(), loads[c][s].column(0));
         }
   };

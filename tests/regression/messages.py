@@ -24,12 +24,12 @@ RANKS = 4
 # neighbours, shares the rows with one of them as their owner, and sends one message each way.
 MESSAGES = {"f_mults": 2, "preconditioner_applications": 2}
 
-# F: number of columns. Iteration: projections of the residual and of the direction, norms, choice of
+# Iteration: projections of the residual and of the direction, norms, choice of
 # the columns, products with earlier directions, products with F times the direction.
 # Outer iteration: products of the residual with directions; projection and norms of the last residual;
 # rigid amplitudes, twice; norms of the optimality conditions; G lambda; maximum of diag F and norms of
 # lambda and G for the scale of that; largest force; whether the set changes.
-COLLECTIVES = {"f_mults": 7, "outer_iterations": 12}
+COLLECTIVES = {"f_mults": 6, "outer_iterations": 12}
 
 
 def counts_at(program, counter, tolerance):

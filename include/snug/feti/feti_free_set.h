@@ -13,7 +13,7 @@ public:
 
   const qp::FreeRows &free_rows() const override { return free; }
 
-  bool has_slips() const override { return slides; }
+  bool                has_slips() const override { return slides; }
   void                project(qp::MultiVector &x) const override;
   void                project_multipliers(qp::MultiVector &y) const override;
   std::vector<double> deflate(qp::MultiVector &x) const override;

@@ -114,7 +114,6 @@ private:
   std::vector<RowForces>   find_soft_modes(const std::vector<double> &entries) const;
   void                     weight_rows();
   void                     precondition(qp::MultiVector &x) const;
-  unsigned int             n_columns(const PrimalVectors &v) const;
 
   const DualStructure                &structure;
   const std::vector<SubdomainSystem> &systems;

@@ -47,8 +47,55 @@ void add_product(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::Mul
 /// Add B' x to @p y for one subdomain. x has local rows, y the unknowns as numbered in @p B.
 void add_transposed(const std::vector<BEntry> &B, const qp::MultiVector &x, qp::MultiVector &y);
 
-/// Primal vectors: one multi-vector per subdomain of this rank.
-using PrimalVectors = std::vector<qp::MultiVector>;
+/// One multi-vector per subdomain of this rank. All have the same number of columns, which is known
+/// on ranks without subdomains as well.
+class PrimalVectors
+{
+public:
+  explicit PrimalVectors(unsigned int n_columns = 1) : columns(n_columns) {}
+
+  /// Append a vector of zeros for the next subdomain.
+  void emplace_back(unsigned int n_dofs) { vectors.emplace_back(n_dofs, columns); }
+
+  unsigned int n_columns() const { return columns; }
+  std::size_t  size() const { return vectors.size(); }
+  bool         empty() const { return vectors.empty(); }
+
+  qp::MultiVector       &operator[](std::size_t s) { return vectors[s]; }
+  const qp::MultiVector &operator[](std::size_t s) const { return vectors[s]; }
+  qp::MultiVector       &back() { return vectors.back(); }
+
+  std::vector<qp::MultiVector>::const_iterator begin() const { return vectors.begin(); }
+  std::vector<qp::MultiVector>::const_iterator end() const { return vectors.end(); }
+
+  /// Return @p n columns from @p first on.
+  PrimalVectors columns_from(unsigned int first, unsigned int n) const
+  {
+    PrimalVectors result(n);
+    for (const auto &vector : vectors)
+      result.vectors.push_back(vector.columns_from(first, n));
+    return result;
+  }
+
+  /// Append the columns of @p other.
+  void append(const PrimalVectors &other)
+  {
+    for (std::size_t s = 0; s < size(); ++s)
+      vectors[s].append(other[s]);
+    columns += other.columns;
+  }
+
+  /// Add factor times @p other.
+  void add(double factor, const PrimalVectors &other)
+  {
+    for (std::size_t s = 0; s < size(); ++s)
+      vectors[s].add(factor, other[s]);
+  }
+
+private:
+  unsigned int                 columns;
+  std::vector<qp::MultiVector> vectors;
+};
 } // namespace snug::feti
 
 #endif

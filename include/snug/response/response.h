@@ -42,9 +42,8 @@ template <int dim>
 struct FieldDerivative
 {
   double stiffness = 0., load = 0.;
-  /// virtual motion of the nodes, per subdomain of this rank
-  feti::PrimalVectors motion     = {};
-  bool                has_motion = false;
+  /// virtual motion of the nodes; no columns: none
+  feti::PrimalVectors motion = feti::PrimalVectors(0);
   /// traction as a function of the unit outward normal and the point of one boundary
   /// [response / length^dim]
   std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &normal,

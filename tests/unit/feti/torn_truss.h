@@ -205,7 +205,7 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
   structure.reset();
   cache.reset();
   mine.clear();
-  loads.clear();
+  loads = feti::PrimalVectors();
   feti::ConstraintRows rows_of_B;
   for (unsigned int s = 0; s < blocks.size(); ++s)
     {
@@ -214,7 +214,9 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
         continue;
       ids.push_back(s);
       mine.push_back(systems[s]);
-      loads.push_back(truss_loads(blocks[s], 2));
+      const auto f = truss_loads(blocks[s], 2);
+      loads.emplace_back(f.n_rows());
+      loads.back() = f;
       rows_of_B.emplace_back();
       entries.emplace_back();
       std::set<unsigned int> boundary;

@@ -96,8 +96,7 @@ void check_data_derivatives(const sensitivity::Derivatives kind, double toleranc
   const auto              all = sensitivity::data_derivatives(problem.solver, state, V, parameters);
   const unsigned int      j   = V.size() / 2;
   sensitivity::KktVectors error;
-  for (const auto &part : all.primal)
-    error.primal.push_back(part.columns_from(j, 1));
+  error.primal          = all.primal.columns_from(j, 1);
   error.dual            = all.dual.columns_from(j, 1);
   const double sizes[]  = {largest(error, false), largest(error, true)};
   const double step     = 1e-3;

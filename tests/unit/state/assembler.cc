@@ -65,10 +65,10 @@ TEST(Assembler, BodyModesAreContinuous)
 {
   Problem<3>          problem(loaded_scene<3>(1));
   const auto         &feti = problem.solver.feti(problem.solve());
-  feti::PrimalVectors motion;
+  feti::PrimalVectors motion(6);
   for (const auto &system : feti.linearization().subdomains())
     {
-      motion.emplace_back(system.n_dofs(), 6);
+      motion.emplace_back(system.n_dofs());
       motion.back().add_product(1., system.R, system.Z);
     }
   const auto          B_motion = feti.linearization().multiply_B(motion);

@@ -113,9 +113,9 @@ TEST(State, CertificateOfNaNIsInfinite)
   Problem<3> problem(hertz_scene(1e-6));
   const auto state = problem.solve();
   auto       u     = state.u;
-  for (auto &of_subdomain : u)
-    for (unsigned int i = 0; i < of_subdomain.n_rows(); ++i)
-      of_subdomain(i) = std::numeric_limits<double>::quiet_NaN();
+  for (unsigned int s = 0; s < u.size(); ++s)
+    for (unsigned int i = 0; i < u[s].n_rows(); ++i)
+      u[s](i) = std::numeric_limits<double>::quiet_NaN();
   const auto certificate = state::certify(problem.solver.feti(state), state.dual.lambda, u);
   for (const double error : {certificate.continuity, certificate.penetration, certificate.worst()})
     EXPECT_FALSE(error < std::numeric_limits<double>::max());
