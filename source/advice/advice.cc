@@ -105,14 +105,13 @@ void add_facets(const AdviceInput<dim> &input, std::vector<Advice> &advice)
 {
   double worst = 0.;
   for (const auto &state : input.states)
-    if (const auto line = state::facet_warning(state.validity); !line.empty())
-      if (const double ratio = state.validity.facet_height / state.validity.closed_gap;
-          ratio > worst)
+    if (const auto facets = state::facet_warning(state.validity))
+      if (facets->value > worst)
         {
           if (worst > 0.)
             advice.pop_back();
-          worst = ratio;
-          advice.push_back({"facets", line, 1., ratio});
+          worst = facets->value;
+          advice.push_back({"facets", facets->text, 1., facets->value});
         }
 }
 

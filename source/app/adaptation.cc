@@ -330,8 +330,7 @@ std::string Adaptation<dim>::reach(const double factor)
             summary.met = summary.met && is_met(d);
           if (summary.met && !is_solver_too_inexact())
             {
-              for (const auto &line : unresolved_gaps)
-                context.warn(line);
+              context.warn("unresolved data", unresolved_gaps);
               return "";
             }
         }

@@ -149,7 +149,8 @@ std::string Adaptation<dim>::unbounded_at_edge()
                      ": round the edge, or set targets of energies, forces and areas only";
             }
           if (part > 0.)
-            context.warn(edge.text + ": " + demands[d].name + " is valid only away from the edge");
+            context.warn({"sharp edge", edge.text + ": " + demands[d].name +
+                                          " is valid only away from the edge"});
         }
     }
   return "";

@@ -55,8 +55,10 @@ values_paired_anew(Search<dim> &search, const OptimizationResult &result, const 
     }
   catch (const SolveError &no_state)
     {
-      search.results.warn({"after a new contact search, the analysis of the final design fails: " +
-                           std::string(no_state.what())});
+      problem.context.warn(
+        {"pairing drift", "after a new contact search, the analysis of the final "
+                          "design fails: " +
+                            std::string(no_state.what())});
       return {};
     }
 }
@@ -84,7 +86,8 @@ void report_paired_anew(Search<dim> &search, const OptimizationResult &result, c
     line << " and violates '" << values->violated << "' by " << values->violation
          << " of its limit instead of " << result.constraint_violation;
   if (breaks || change > most_change * std::abs(result.objective_final))
-    search.results.warn({line.str() + "; 'Contact/Update pairing' can continue from there"});
+    search.problem.context.warn(
+      {"pairing drift", line.str() + "; 'Contact/Update pairing' can continue from there"});
   else
     search.log(line.str());
 }
@@ -121,8 +124,11 @@ void report_gain(Search<dim>                              &search,
   search.results.summary.optimization->gain = gain;
   const bool is_free = search.record.first_violation <= scene.optimization.constraint_tolerance;
   if (is_free && !gain.counts)
-    search.results.warn({"the gain of the objective is smaller than its estimated error and may be "
-                         "an effect of the mesh; set a smaller error in 'Accuracy/Target'"});
+    search.problem.context.warn(
+      {"small gain",
+       "the gain of the objective is smaller than its estimated error and may be an effect of the "
+       "mesh; set a smaller error in 'Accuracy/Target'",
+       gain.initial - gain.final, error});
 }
 } // namespace
 

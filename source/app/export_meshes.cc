@@ -60,7 +60,7 @@ void Results<dim>::export_meshes(const state::ContactState<dim> &state)
           lines.push_back("bodies.inp lacks: " + line);
       }
   });
-  warn(lines);
+  problem->context.warn("export", lines);
 }
 
 template void Results<2>::export_meshes(const state::ContactState<2> &);

@@ -265,7 +265,7 @@ void Results<dim>::report_profile(std::vector<std::string> lines)
       !cad::is_step_unit(problem->scene.units.front()))
     lines.push_back("profile.step is written in mm, because STEP files have no unit '" +
                     problem->scene.units.front() + "'");
-  warn(lines);
+  problem->context.warn("export", lines);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                        \

@@ -107,7 +107,7 @@ void AdaptiveOptimization<dim>::analyse_first_design()
   results->warn(adaptation.states());
   // A search may leave a design for which no mesh meets the targets.
   if (!failure_reason.empty())
-    results->warn({"initial design: " + failure_reason});
+    context.warn({"target", "initial design: " + failure_reason});
   results->add_first(adaptation.states(), {});
   initial  = adaptation.objective();
   result.x = problem.shapes->start();

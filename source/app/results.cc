@@ -65,16 +65,21 @@ void Results<dim>::print_header()
   const auto positions = solver.positions();
   for (const unsigned int c : positions)
     print_pairs(c, positions.size() > 1);
-  warn(import_warnings(problem->scene));
-  warn(refinement_warnings(problem->scene, *problem->mesh));
-  warn(offset_warnings(*problem));
+  auto &context = problem->context;
+  context.warn("mesh file", import_warnings(problem->scene));
+  context.warn("refinement", refinement_warnings(problem->scene, *problem->mesh));
+  context.warn("offset", offset_warnings(*problem));
   for (const unsigned int c : positions)
     {
       const auto &contact = solver.contact(c);
-      warn(state::symmetry_warnings(*problem->mesh, solver.model().supports, contact.pairs()));
-      warn(state::matching_warnings(contact.pairs(), contact.matchings()));
-      warn(state::overlap_warnings(contact.pairs(), contact.paired_gaps(),
-                                   state::place_of(solver.model(), c)));
+      context.warn("symmetry plane",
+                   state::symmetry_warnings(*problem->mesh, solver.model().supports,
+                                            contact.pairs()));
+      for (const auto &warning : state::matching_warnings(contact.pairs(), contact.matchings()))
+        context.warn(warning);
+      for (const auto &warning : state::overlap_warnings(contact.pairs(), contact.paired_gaps(),
+                                                         state::place_of(solver.model(), c)))
+        context.warn(warning);
     }
 }
 
@@ -148,27 +153,18 @@ void Results<dim>::print_work() const
 }
 
 template <int dim>
-void Results<dim>::warn(const std::vector<std::string> &lines)
-{
-  for (const std::string &line : lines)
-    if (std::find(warnings.begin(), warnings.end(), line) == warnings.end())
-      {
-        warnings.push_back(line);
-        problem->context.warn(line);
-      }
-}
-
-template <int dim>
 void Results<dim>::warn(const States &states)
 {
   for (const auto &state : states)
     {
-      warn(state::warnings(state.validity));
-      warn(state.free_bodies);
+      for (const auto &warning : state::warnings(state.validity))
+        problem->context.warn(warning);
+      problem->context.warn("free body", state.free_bodies);
     }
   if (std::all_of(states.begin(), states.end(), state::is_at_rest<dim>))
-    warn({"all displacements are zero: no load case has a force, pressure, moment, weight, "
-          "prescribed displacement or overlap"});
+    problem->context.warn(
+      {"no load", "all displacements are zero: no load case has a force, pressure, moment, "
+                  "weight, prescribed displacement or overlap"});
 }
 
 template <int dim>
@@ -177,11 +173,13 @@ void Results<dim>::warn_of_weak_contacts(const States &states, const std::string
   unsigned int weak_contacts = 0;
   for (const auto &state : states)
     weak_contacts += state.weak_contacts;
-  warn({counted(weak_contacts, "contact is", "contacts are") +
-        " weakly active (neither force nor gap, or about to slip): functions of the displacement "
-        "have only one-sided "
-        "derivatives" +
-        more});
+  problem->context.warn(
+    {"weak contact",
+     counted(weak_contacts, "contact is", "contacts are") +
+       " weakly active (neither force nor gap, or about to slip): functions of the displacement "
+       "have only one-sided derivatives" +
+       more,
+     double(weak_contacts), 0.});
 }
 
 template <int dim>
@@ -233,7 +231,8 @@ std::vector<MeshError> Results<dim>::estimate(const States &states)
     }
   catch (const SolveError &error)
     {
-      warn({std::string("no estimate of the discretization error: ") + error.what()});
+      problem->context.warn(
+        {"no estimate", std::string("no estimate of the discretization error: ") + error.what()});
       return {};
     }
 }
@@ -348,9 +347,7 @@ void Results<dim>::write_summary()
   summary.work        = context.total_work();
   summary.times       = io::collect_times(context);
   summary.memory      = io::collect_memory(context);
-  if (!io::blas_warning(summary.program).empty())
-    summary.warnings.push_back(io::blas_warning(summary.program));
-  summary.warnings.insert(summary.warnings.end(), warnings.begin(), warnings.end());
+  summary.warnings    = context.warnings();
   throw_collectively(context.communicator(), [&]() {
     if (context.rank() == 0)
       summary.write(path("summary.json"));

@@ -146,16 +146,13 @@ void validate_in(RunContext &context, const scene::Scene &scene)
   print_import_notes(scene, context.out());
   print_cad_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
-  for (const auto &line : import_warnings(scene))
-    context.warn(line);
-  for (const auto &line : refinement_warnings(scene, *mesh))
-    context.warn(line);
+  context.warn("mesh file", import_warnings(scene));
+  context.warn("refinement", refinement_warnings(scene, *mesh));
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
   for (const unsigned int c : problem.solver->positions())
-    for (const auto &line :
-         state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
-                                  problem.solver->contact(c).pairs()))
-      context.warn(line);
+    context.warn("symmetry plane",
+                 state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
+                                          problem.solver->contact(c).pairs()));
   problem.check_overlaps();
   const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.
@@ -171,7 +168,7 @@ void print_program(RunContext &context)
   context.out() << "Snug " << info.version << ", deal.II " << info.dealii << ", PETSc "
                 << info.petsc << ", BLAS " << info.blas << std::endl;
   if (!io::blas_warning(info).empty())
-    context.warn(io::blas_warning(info));
+    context.warn({"BLAS", io::blas_warning(info)});
 }
 
 /// Analyse the initial design on the mesh of the scene, or on a mesh that meets the targets, and
@@ -265,7 +262,7 @@ void run_task(RunContext &context, const scene::Scene &scene, const Options &opt
 void warn_of_unused_petsc_options(RunContext &context)
 {
   for (const auto &option : petsc::unused_options(context.communicator()))
-    context.warn("PETSc option " + option + " was not used");
+    context.warn({"PETSc option", "PETSc option " + option + " was not used"});
 }
 
 /// Make OpenBLAS allocate its buffer, after a check that there is memory for the buffer. Otherwise
@@ -360,7 +357,7 @@ int run(const Options &options)
   const scene::Scene scene = scene::read_scene(source);
   context.set_verbosity(scene.output.verbosity);
   for (const auto &line : left_out)
-    context.warn(options.file + ": not translated: " + line);
+    context.warn({"deck", options.file + ": not translated: " + line});
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
     scene.dimension == 2 ? estimate_in<2>(context, scene, options.ranks)

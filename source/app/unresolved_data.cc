@@ -44,8 +44,7 @@ void Adaptation<dim>::resolve_data()
           last_refinement = std::move(next);
           continue;
         }
-      for (const auto &line : found.lines)
-        context.warn(line);
+      context.warn("unresolved data", found.lines);
       return;
     }
 }

@@ -75,9 +75,19 @@ std::ostream &RunContext::out(const Verbosity level)
   return *stream;
 }
 
-void RunContext::warn(const std::string &text)
+void RunContext::warn(const Warning &warning)
 {
-  out(Verbosity::quiet) << "warning: " << text << std::endl;
+  if (std::any_of(kept_warnings.begin(), kept_warnings.end(),
+                  [&](const Warning &kept) { return kept.text == warning.text; }))
+    return;
+  kept_warnings.push_back(warning);
+  out(Verbosity::quiet) << "warning: " << warning.text << std::endl;
+}
+
+void RunContext::warn(const std::string &code, const std::vector<std::string> &lines)
+{
+  for (const std::string &line : lines)
+    warn({code, line});
 }
 
 void RunContext::progress(const std::string &text)

@@ -219,7 +219,16 @@ std::string Summary::json() const
                {"times", summary_part(times)},
                {"memory", summary_part(memory)},
                {"task", task},
-               {"warnings", warnings}};
+               {"warnings", Json::array()},
+               {"checks", Json::array()}};
+  for (const auto &warning : warnings)
+    {
+      text["warnings"].push_back(warning.text);
+      text["checks"].push_back({{"code", warning.code},
+                                {"text", warning.text},
+                                {"value", warning.value},
+                                {"bound", warning.bound}});
+    }
   add_load_cases(load_cases, text["state"]);
   // Add these keys only if there is a second state or load case, or a target. The keys above are
   // always written.

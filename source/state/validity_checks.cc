@@ -184,7 +184,7 @@ ValidityChecks check_validity(const StateSolver<dim>               &solver,
   return result;
 }
 
-std::string facet_warning(const ValidityChecks &validity)
+std::optional<Warning> facet_warning(const ValidityChecks &validity)
 {
   if (validity.facet_height <= large_facets * validity.closed_gap)
     return {};
@@ -194,7 +194,7 @@ std::string facet_warning(const ValidityChecks &validity)
        << 100. * validity.facet_height / validity.closed_gap
        << " % of the largest gap or overlap that closes: pressures follow the facets; set "
           "'Surface', or use a finer mesh file";
-  return text.str();
+  return Warning{"facets", text.str(), validity.facet_height / validity.closed_gap, large_facets};
 }
 
 namespace {
@@ -227,37 +227,42 @@ std::string why_not_valid(const ValidityChecks &validity)
                                             : "";
 }
 
-std::vector<std::string> warnings(const ValidityChecks &validity)
+std::vector<Warning> warnings(const ValidityChecks &validity)
 {
-  std::vector<std::string> lines;
-  if (validity.rotation > large_rotation)
-    lines.push_back(
-      line("cells rotate by", validity.rotation, " rad", ": small rotations are assumed"));
-  if (const auto effect = largest_effect(validity); std::abs(effect.of_force()) > large_effect)
-    lines.push_back(line(effect) + ": small displacements are assumed");
-  if (validity.strain > large_strain)
-    lines.push_back(line("strains are", validity.strain, "", ": small strains are assumed"));
-  if (validity.slip > large_slip)
-    lines.push_back(line("active contacts slip tangentially by", validity.slip, " of a face",
-                         ": small slip is assumed"));
-  if (validity.drift > large_drift)
-    lines.push_back(line("the design moved slave nodes away from their paired points by",
-                         validity.drift, " of a face", ": see 'Contact/Update pairing'"));
+  std::vector<Warning> result;
+  const auto           check = [&](const std::string &code, const double value, const double bound,
+                         const std::string &text) {
+    if (value > bound)
+      result.push_back({code, text, value, bound});
+  };
+  check("rotation", validity.rotation, large_rotation,
+        line("cells rotate by", validity.rotation, " rad", ": small rotations are assumed"));
+  const auto effect = largest_effect(validity);
+  check("large displacements", std::abs(effect.of_force()), large_effect,
+        line(effect) + ": small displacements are assumed");
+  check("strain", validity.strain, large_strain,
+        line("strains are", validity.strain, "", ": small strains are assumed"));
+  check("slip", validity.slip, large_slip,
+        line("active contacts slip tangentially by", validity.slip, " of a face",
+             ": small slip is assumed"));
+  check("pairing drift", validity.drift, large_drift,
+        line("the design moved slave nodes away from their paired points by", validity.drift,
+             " of a face", ": see 'Contact/Update pairing'"));
   if (validity.width < least_width)
     {
       std::ostringstream text;
       text.precision(2);
       text << "minimum number of faces across a contact: " << validity.width
            << ", at least 8 are recommended for accurate pressures";
-      lines.push_back(text.str());
+      result.push_back({"contact faces", text.str(), validity.width, least_width});
     }
-  if (const auto facets = facet_warning(validity); !facets.empty())
-    lines.push_back(facets);
-  if (validity.missed > 0)
-    lines.push_back(counted(validity.missed, "slave node") + " beyond the search distance of '" +
-                    validity.missed_pair +
-                    "' penetrate the master without a force: increase 'Search distance'");
-  return lines;
+  if (const auto facets = facet_warning(validity))
+    result.push_back(*facets);
+  check("missed nodes", validity.missed, 0.,
+        counted(validity.missed, "slave node") + " beyond the search distance of '" +
+          validity.missed_pair +
+          "' penetrate the master without a force: increase 'Search distance'");
+  return result;
 }
 
 namespace {
@@ -284,31 +289,35 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
                            ": if the overlap is intended, set 'Interference' of the pair"));
 }
 
-std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>       &pairs,
-                                          const std::vector<contact::PairedGaps> &gaps,
-                                          const std::string                      &place)
+std::vector<Warning> overlap_warnings(const std::vector<contact::Pair>       &pairs,
+                                      const std::vector<contact::PairedGaps> &gaps,
+                                      const std::string                      &place)
 {
-  std::vector<std::string> lines;
+  std::vector<Warning> result;
   for (unsigned int p = 0; p < pairs.size(); ++p)
     if (gaps[p].overlap > large_overlap)
-      lines.push_back(line("'" + pairs[p].name() + "' overlaps initially" + place + " by",
-                           -gaps[p].least, of_a_face(gaps[p]),
-                           ": if the overlap is intended, set 'Interference' of the pair"));
-  return lines;
+      result.push_back(
+        {"overlap",
+         line("'" + pairs[p].name() + "' overlaps initially" + place + " by", -gaps[p].least,
+              of_a_face(gaps[p]), ": if the overlap is intended, set 'Interference' of the pair"),
+         gaps[p].overlap, large_overlap});
+  return result;
 }
 
-std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     &pairs,
-                                           const std::vector<contact::Matching> &matchings)
+std::vector<Warning> matching_warnings(const std::vector<contact::Pair>     &pairs,
+                                       const std::vector<contact::Matching> &matchings)
 {
-  std::vector<std::string> lines;
+  std::vector<Warning> result;
   for (unsigned int p = 0; p < pairs.size(); ++p)
     if (!pairs[p].obstacle && pairs[p].parameters.method == contact::Method::nodal &&
         !matchings[p].complete())
-      lines.push_back("'" + pairs[p].name() + "' is nodal, but " +
-                      std::to_string(matchings[p].n_nodes - matchings[p].n_matching) + " of " +
-                      std::to_string(matchings[p].n_nodes) +
-                      " slave nodes match no master node: pressures oscillate by some percent from "
-                      "node to node; 'Method' = mortar avoids this");
+      result.push_back(
+        {"nodal rows", "'" + pairs[p].name() + "' is nodal, but " +
+                         std::to_string(matchings[p].n_nodes - matchings[p].n_matching) + " of " +
+                         std::to_string(matchings[p].n_nodes) +
+                         " slave nodes match no master node: pressures oscillate by "
+                         "some percent from node to node; 'Method' = mortar avoids "
+                         "this"});
     else if (!pairs[p].obstacle && pairs[p].parameters.method == contact::Method::mortar &&
              matchings[p].finer > finer_slave)
       {
@@ -317,9 +326,9 @@ std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     
         text << "the slave faces of '" << pairs[p].name() << "' are " << matchings[p].finer
              << " times finer than the master faces: pressures oscillate; the default of 'Slave' "
                 "selects the other side";
-        lines.push_back(text.str());
+        result.push_back({"fine slave", text.str(), matchings[p].finer, finer_slave});
       }
-  return lines;
+  return result;
 }
 
 template ValidityChecks check_validity(const StateSolver<2> &,

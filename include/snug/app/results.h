@@ -39,10 +39,6 @@ public:
   /// Print the numbers of meshes and F-mults that were needed for the targets, and the times.
   void print_work() const;
 
-  /// Print lines as warnings and keep them for the summary. Lines that are kept already are left
-  /// out.
-  void warn(const std::vector<std::string> &lines);
-
   /// Warn where the model is doubtful at @p states.
   void warn(const States &states);
 
@@ -131,8 +127,7 @@ private:
   const ShapeProblem<dim> *problem;
   std::vector<Pictures>    pictures;   ///< per load case
   double                   drawn = 0.; ///< the time drawn last
-  std::vector<std::string> warnings;
-  std::string              not_valid; ///< why the states of add_last() are not valid, or empty
+  std::string              not_valid;  ///< why the states of add_last() are not valid, or empty
   std::vector<io::Summary::State> first_states; ///< per load case
   std::vector<MeshError>          last_errors;  ///< of add_last()
   /// numbers_of_nodes() of the mesh of the problem, after the first call

@@ -2,6 +2,7 @@
 #define snug_base_run_context_h
 
 #include <snug/base/values.h>
+#include <snug/base/warning.h>
 
 #include <mpi.h>
 
@@ -10,6 +11,7 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace snug {
 /// Counters of the work of a run. They are equal on every rank, except counters of subdomain
@@ -65,8 +67,14 @@ public:
   /// everything on ranks other than 0.
   std::ostream &out(Verbosity level = Verbosity::normal);
 
-  /// Print "warning: " and @p text as a line of the log, at every verbosity.
-  void warn(const std::string &text);
+  /// Print "warning: " and the text as a line of the log, at every verbosity, and keep @p warning.
+  /// A warning with a text that is kept already is left out.
+  void warn(const Warning &warning);
+
+  /// Warn of each of @p lines.
+  void warn(const std::string &code, const std::vector<std::string> &lines);
+
+  const std::vector<Warning> &warnings() const { return kept_warnings; }
 
   /**
    * Show @p text as the live line of a long stage, overwriting the previous one. Only rank 0
@@ -118,6 +126,7 @@ private:
   Verbosity                             verbosity = Verbosity::normal;
   bool                                  live_line;
   bool                                  live_line_shown = false;
+  std::vector<Warning>                  kept_warnings;
   std::map<std::string, double>         stage_seconds, stage_memory;
   double                                start_memory;
   std::chrono::steady_clock::time_point start;

@@ -165,7 +165,7 @@ struct Summary
   std::string                 task;
   std::optional<State>        initial_state; ///< state of the first design
   std::vector<LoadCase>       load_cases;    ///< empty if there is only one load case
-  std::vector<std::string>    warnings;
+  std::vector<Warning>        warnings;
   /// {quantity, unit} for "length", "force", "stress" and the responses; empty without 'Units'
   std::vector<std::pair<std::string, std::string>> units;
   std::optional<Adaptation>                        accuracy; ///< adaptation to a target

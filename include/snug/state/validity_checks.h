@@ -43,14 +43,14 @@ bool is_at_rest(const ContactState<dim> &state)
   return state.compliance == 0. && state.validity.displacement < least_motion;
 }
 
-/// Return one line for each number beyond its limit.
-std::vector<std::string> warnings(const ValidityChecks &validity);
+/// Return a warning for each number beyond its limit.
+std::vector<Warning> warnings(const ValidityChecks &validity);
 
 /// Return why large displacements make a result wrong; empty if they do not.
 std::string why_not_valid(const ValidityChecks &validity);
 
-/// Return the line about facets among the warnings; empty if the facets are below their limit.
-std::string facet_warning(const ValidityChecks &validity);
+/// Return the warning about facets among them; nothing if the facets are below their limit.
+std::optional<Warning> facet_warning(const ValidityChecks &validity);
 
 /// Check the overlaps of the pairs. Messages contain @p place, see place_of().
 /// @throws InputError if slave nodes of a pair overlap the master by more than absurd_overlap where
@@ -59,16 +59,16 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
                     const std::vector<contact::PairedGaps> &gaps,
                     const std::string                      &place = "");
 
-/// Return one line for each pair whose slave nodes overlap the master by more than large_overlap
+/// Return a warning for each pair whose slave nodes overlap the master by more than large_overlap
 /// where they were paired, if the overlap is not intended.
-std::vector<std::string> overlap_warnings(const std::vector<contact::Pair>       &pairs,
-                                          const std::vector<contact::PairedGaps> &gaps,
-                                          const std::string                      &place = "");
+std::vector<Warning> overlap_warnings(const std::vector<contact::Pair>       &pairs,
+                                      const std::vector<contact::PairedGaps> &gaps,
+                                      const std::string                      &place = "");
 
-/// Return one line for each nodal pair of faces whose meshes do not match, and for each mortar pair
-/// whose slave faces are finer by more than the factor finer_slave.
-std::vector<std::string> matching_warnings(const std::vector<contact::Pair>     &pairs,
-                                           const std::vector<contact::Matching> &matchings);
+/// Return a warning for each nodal pair of faces whose meshes do not match, and for each mortar
+/// pair whose slave faces are finer by more than the factor finer_slave.
+std::vector<Warning> matching_warnings(const std::vector<contact::Pair>     &pairs,
+                                       const std::vector<contact::Matching> &matchings);
 } // namespace snug::state
 
 #endif

@@ -216,13 +216,14 @@ end
   ASSERT_EQ(validity.geometric.size(), 1u);
   EXPECT_NEAR(validity.geometric[0].of_force(), 1.5 * e_yy, 1e-8); // no stress across
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ(lines[0].find("large displacements would change the stiffness of body block by about "
-                          "-55 %"),
+  EXPECT_EQ(lines[0].text.find(
+              "large displacements would change the stiffness of body block by about "
+              "-55 %"),
             0u)
-    << lines[0];
-  EXPECT_EQ(lines[1].find("strains are up to 0.4"), 0u) << lines[1];
-  EXPECT_EQ(lines[2].find("active contacts slip tangentially by up to 0.62 of a face"), 0u)
-    << lines[2];
+    << lines[0].text;
+  EXPECT_EQ(lines[1].text.find("strains are up to 0.4"), 0u) << lines[1].text;
+  EXPECT_EQ(lines[2].text.find("active contacts slip tangentially by up to 0.62 of a face"), 0u)
+    << lines[2].text;
 }
 
 TEST(Warnings, OfDesignsThatLeaveTheirPairing)
@@ -256,9 +257,9 @@ TEST(Warnings, OfOverlapUnlessItIsWanted)
   EXPECT_NEAR(gaps[0].overlap, 0.4, 1e-12);
   const auto lines = state::overlap_warnings(pairs, gaps);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("overlaps initially by up to 0.1 (0.4 times the face size)"),
+  EXPECT_NE(lines[0].text.find("overlaps initially by up to 0.1 (0.4 times the face size)"),
             std::string::npos)
-    << lines[0];
+    << lines[0].text;
   EXPECT_NO_THROW(state::check_overlaps(pairs, gaps));
   EXPECT_THROW(state::check_overlaps(pairs, {{-1., 0., 2.1}}), InputError);
   const SolvedScene<3> wanted(two_blocks(true), {"Contact/Gap=-0.1", "Contact/Interference=true"});
@@ -277,9 +278,10 @@ TEST(Warnings, OfFacetsThatContactSees)
   validity.facet_height = 0.0051;
   const auto lines      = state::warnings(validity);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("facet height 0.0051 of a contact surface is 5.1 %"), std::string::npos)
-    << lines[0];
-  EXPECT_NE(lines[0].find("gap or overlap that closes"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].text.find("facet height 0.0051 of a contact surface is 5.1 %"),
+            std::string::npos)
+    << lines[0].text;
+  EXPECT_NE(lines[0].text.find("gap or overlap that closes"), std::string::npos) << lines[0].text;
 }
 
 TEST(Warnings, OfRefineWhereThatCatchesNothing)
@@ -294,8 +296,8 @@ TEST(Warnings, OfRefineWhereThatCatchesNothing)
   // no centre of a cell is as near to the face
   const auto lines = unrefined("0.01 - x");
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].find("'Refine where' of body lower"), 0u) << lines[0];
-  EXPECT_NE(lines[0].find("none of its 512 cells"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[0].text.find("'Refine where' of body lower"), 0u) << lines[0].text;
+  EXPECT_NE(lines[0].text.find("none of its 512 cells"), std::string::npos) << lines[0].text;
 }
 
 TEST(Unloaded, NothingMoves)

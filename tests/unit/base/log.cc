@@ -8,7 +8,7 @@
 using namespace snug;
 
 namespace {
-/// Return the log of a run that prints one line of each level and a warning.
+/// Return the log of a run that prints one line of each level and warns twice of the same.
 std::string log_of(const Verbosity verbosity)
 {
   std::ostringstream text;
@@ -17,7 +17,9 @@ std::string log_of(const Verbosity verbosity)
   context.out(Verbosity::quiet) << "result\n";
   context.out() << "sizes\n";
   context.out(Verbosity::debug) << "memory\n";
-  context.warn("locks");
+  for (const char *text : {"locks", "locks"})
+    context.warn({"locking", text});
+  EXPECT_EQ(context.warnings().size(), 1u);
   return text.str();
 }
 } // namespace

@@ -123,9 +123,12 @@ TEST(Summary, TheStateNamesItsLoadCaseAndTheLargestOfAll)
 TEST(Summary, WarningsMayHoldAnything)
 {
   io::Summary summary;
-  summary.warnings = {"a \"quoted\" \\ line\n", "not UTF-8: \xff"};
+  summary.warnings = {{"strain", "a \"quoted\" \\ line\n", 0.2, 0.1}, {"deck", "not UTF-8: \xff"}};
   const Json json  = Json::parse(summary.json());
-  EXPECT_EQ(json["warnings"][0].get<std::string>(), summary.warnings[0]);
+  EXPECT_EQ(json["warnings"][0].get<std::string>(), summary.warnings[0].text);
+  EXPECT_EQ(json["checks"][0]["code"], "strain");
+  EXPECT_EQ(json["checks"][0]["bound"], 0.1);
+  EXPECT_TRUE(json["checks"][1]["value"].is_null());
 }
 
 TEST(Summary, IsWrittenAsItIs)
