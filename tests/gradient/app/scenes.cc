@@ -88,11 +88,14 @@ scene::Scene coarse_scene(const Case &given)
 {
   const auto name  = std::filesystem::path(given.file).stem().string();
   const auto sizes = coarse_elements.find(name);
-  const auto ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  auto       scene =
-    scene::read_scene({given.file, contents(given.file),
-                       sizes == coarse_elements.end() ? std::vector<std::string>() : sizes->second,
-                       "gradient.app.np" + std::to_string(ranks) + "/" + name, contents});
+  const auto ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
+             rank  = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  auto scene       = scene::read_scene(
+    {given.file, contents(given.file),
+     sizes == coarse_elements.end() ? std::vector<std::string>() : sizes->second,
+           // Each rank reads CAD files by itself, and gmsh writes files of its own.
+           "gradient.app.np" + std::to_string(ranks) + "/" + std::to_string(rank) + "/" + name,
+           contents});
   coarsen(scene);
   // those of degree 2 are slender: round-off does not let them reach 1e-11
   scene.state_tolerance = scene.degree == 1 ? 1e-11 : 1e-10;
