@@ -36,15 +36,10 @@ dealii::Tensor<1, dim> AppliedForces<dim>::by_area(const Face                   
                                                    const FacePoint<dim>          &point,
                                                    const LoadedDisplacement<dim> &of) const
 {
-  const auto                     reference = dealii::Point<dim>(point.reference);
-  const double                   dA        = point.area.norm();
-  const state::BoundaryLoad<dim> none, *here = of.loads != 0. ? load(face) : nullptr;
-  const auto                    &given = here ? *here : none;
-  dealii::Tensor<1, dim>         force;
-  if (given.pressure)
-    force -= of.loads * given.pressure(reference) * point.area;
-  if (given.traction)
-    force += of.loads * dA * given.traction(reference);
+  const double           dA = point.area.norm();
+  dealii::Tensor<1, dim> force;
+  if (const auto *given = of.loads != 0. ? load(face) : nullptr)
+    force = of.loads * given->force_at(dealii::Point<dim>(point.reference), point.area);
   if (has_more(face, of))
     force += dA * of.more->traction(point.area / dA, point.position);
   return force;
@@ -64,7 +59,7 @@ dealii::Tensor<1, dim> AppliedForces<dim>::spread(const Face                    
 template <int dim>
 bool AppliedForces<dim>::act_in(const Cell &cell, const LoadedDisplacement<dim> &of) const
 {
-  return of.loads != 0. && (bodies[cell.body].body_force || bodies[cell.body].gravity.norm() > 0.);
+  return of.loads != 0. && bodies[cell.body].has_force_per_volume();
 }
 
 template <int dim>
@@ -72,11 +67,8 @@ dealii::Tensor<1, dim> AppliedForces<dim>::by_volume(const Cell                 
                                                      const dealii::Tensor<1, dim>  &reference,
                                                      const LoadedDisplacement<dim> &of) const
 {
-  const auto            &loads   = bodies[cell.body];
-  dealii::Tensor<1, dim> density = model.bodies[cell.body].material(cell).density * loads.gravity;
-  if (loads.body_force)
-    density += loads.body_force(dealii::Point<dim>(reference));
-  return of.loads * density;
+  return of.loads *
+         bodies[cell.body].force_per_volume(model.bodies[cell.body].material(cell), reference);
 }
 
 template class AppliedForces<2>;

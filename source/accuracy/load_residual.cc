@@ -145,12 +145,7 @@ void LoadResidual<dim>::add_faces(const state::LoadCase<dim> &loads,
             const auto area =
               shape.weight * mesh.idealization().weight(mean<dim>(shape.value, x)) *
               faces::area_vector(faces::tangents<dim>(shape, face.nodes, positions));
-            dealii::Tensor<1, dim> force;
-            if (load.pressure)
-              force -= load.pressure(reference) * area;
-            if (load.traction)
-              force += area.norm() * load.traction(reference);
-            result.add(shape.value, force);
+            result.add(shape.value, load.force_at(reference, area));
           }
         return result;
       };

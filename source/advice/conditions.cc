@@ -231,11 +231,8 @@ void Conditions<dim>::add_loads(const Place<dim>  &at,
   elasticity::Resultant<dim> total;
   if (const auto found = loads.boundaries.find(at.boundary); found != loads.boundaries.end())
     {
-      total = found->second.resultant;
-      if (found->second.traction)
-        traction = found->second.traction(at.x);
-      if (found->second.pressure)
-        traction -= found->second.pressure(at.x) * at.normal;
+      total    = found->second.resultant;
+      traction = found->second.force_at(at.x, at.normal);
       concentrated =
         field_of<dim>(found->second.concentrated, dealii::Point<dim>(at.x), 0.3 * size());
     }
@@ -300,10 +297,7 @@ PointData<dim> Conditions<dim>::data(const Place<dim> &at) const
       for (const auto &load_case : cases)
         {
           const auto &loads = load_case.bodies[at.body];
-          Vector      force = material.density * loads.gravity;
-          if (loads.body_force)
-            force += loads.body_force(at.x);
-          result.push_back(vector_datum(force));
+          result.push_back(vector_datum(loads.force_per_volume(material, at.x)));
           result.push_back(scalar_datum<dim>(
             loads.temperature ? material.expansion * loads.temperature(at.x) : 0.));
         }

@@ -317,22 +317,17 @@ bool Assembler<dim>::has_resultants() const
 template <int dim>
 bool Assembler<dim>::has_body_force(unsigned int load_case) const
 {
-  return loads(load_case).body_force || loads(load_case).gravity.norm() > 0.;
+  return loads(load_case).has_force_per_volume();
 }
 
 template <int dim>
 typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
                                                           unsigned int load_case) const
 {
-  const auto &of_body = loads(load_case);
-  // There are as many Gauss points as nodes.
-  Nodes b(the_element.n_nodes(), material(i).density * of_body.gravity);
-  if (!of_body.body_force)
-    return b;
   // The formula depends on the reference position, so the value moves with the material point.
-  const auto reference = the_element.quadrature_points(cell_field(i, mesh.reference_positions()));
-  for (unsigned int q = 0; q < b.size(); ++q)
-    b[q] += of_body.body_force(dealii::Point<dim>(reference[q]));
+  auto b = the_element.quadrature_points(cell_field(i, mesh.reference_positions()));
+  for (auto &at : b)
+    at = loads(load_case).force_per_volume(material(i), at);
   return b;
 }
 

@@ -56,6 +56,19 @@ struct BoundaryLoad
   std::vector<PlacedForce<dim>>                                     concentrated = {};
 
   bool has_resultant() const { return resultant.force.norm() > 0. || resultant.moment.norm() > 0.; }
+
+  /// Return the force of pressure and traction on the @p area n dA [length^2] at a reference
+  /// position, without the resultant and concentrated forces [force].
+  dealii::Tensor<1, dim> force_at(const dealii::Point<dim>     &reference,
+                                  const dealii::Tensor<1, dim> &area) const
+  {
+    dealii::Tensor<1, dim> force;
+    if (pressure)
+      force -= pressure(reference) * area;
+    if (traction)
+      force += area.norm() * traction(reference);
+    return force;
+  }
 };
 
 /// Dead loads of one body in one load case.
@@ -68,6 +81,18 @@ struct BodyLoads
   std::function<double(const dealii::Point<dim> &)> temperature;
   dealii::Tensor<1, dim>                            gravity;    ///< [length / time^2]
   std::map<unsigned int, BoundaryLoad<dim>>         boundaries; ///< by boundary
+
+  bool has_force_per_volume() const { return body_force || gravity.norm() > 0.; }
+
+  /// Return the body force and the weight per volume at a reference position [force / length^3].
+  dealii::Tensor<1, dim> force_per_volume(const elasticity::Material   &material,
+                                          const dealii::Tensor<1, dim> &reference) const
+  {
+    dealii::Tensor<1, dim> force = material.density * gravity;
+    if (body_force)
+      force += body_force(dealii::Point<dim>(reference));
+    return force;
+  }
 };
 
 template <int dim>
