@@ -296,8 +296,8 @@ TEST(Warnings, OfRefineWhereThatCatchesNothing)
   // no centre of a cell is as near to the face
   const auto lines = unrefined("0.01 - x");
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].text.find("'Refine where' of body lower"), 0u) << lines[0].text;
-  EXPECT_NE(lines[0].text.find("none of its 512 cells"), std::string::npos) << lines[0].text;
+  EXPECT_EQ(lines[0].find("'Refine where' of body lower"), 0u) << lines[0];
+  EXPECT_NE(lines[0].find("none of its 512 cells"), std::string::npos) << lines[0];
 }
 
 TEST(Unloaded, NothingMoves)
