@@ -3,9 +3,6 @@
 #include <snug/accuracy/underresolved_contact.h>
 #include <snug/app/adaptation.h>
 #include <snug/base/errors.h>
-#include <snug/contact/joined_pairs.h>
-#include <snug/contact/matching.h>
-#include <snug/mesh/refined_cells.h>
 #include <snug/state/validity_checks.h>
 
 #include <deal.II/base/mpi.h>
@@ -27,27 +24,13 @@ void Adaptation<dim>::start(const Design &design, const Refinement &refinement)
   n_underresolved = 0;
   summary         = {};
   unresolved_gaps.clear();
-  given_design = design;
-  solved       = make_problem(first_mesh(refinement), first_tolerance(refinement));
+  given_design    = design;
+  last_refinement = refinement;
+  solved          = make_problem(meshes.first(last_refinement), first_tolerance(refinement));
   if (refinement.empty())
     solved->problem->check_overlaps();
   set_demands();
   solve(*solved, {});
-}
-
-/// Return the mesh of the scene with @p refinement, and with further refinement that the loads, the
-/// surfaces and the contact of the scene need. Collective.
-template <int dim>
-typename Adaptation<dim>::Mesh Adaptation<dim>::first_mesh(const Refinement &refinement)
-{
-  const bool is_known = refinement.empty() && first_refinement;
-  last_refinement     = is_known ? *first_refinement : refinement;
-  if (!is_known)
-    resolve_data();
-  auto mesh = matched_mesh(last_refinement);
-  if (refinement.empty())
-    first_refinement = last_refinement;
-  return mesh;
 }
 
 /// Return the solver tolerance on the first mesh. Cells that were refined for the targets have
@@ -98,60 +81,6 @@ accuracy::Measured Adaptation<dim>::objective() const
 {
   const auto combined = solved->problem->combined_objective(solved->states);
   return {combined.value, objective_error(scene, combined.factors, solved->errors)};
-}
-
-/// Maximum number of passes, about the largest difference of levels between faces in contact at
-/// first. Where the cell edges of two bodies do not coincide, each pass moves a change of size on
-/// by a face on both bodies, without a limit to the end of the side.
-constexpr unsigned int most_passes = 8;
-
-/// Return the forest of the scene with a refinement. The forest of the mesh before is refined
-/// further if no body is meshed anew and the refinement has the divided cells of this forest.
-/// Collective.
-template <int dim>
-const mesh::Forest<dim> &Adaptation<dim>::forest_with(const Refinement &refinement)
-{
-  if (refinement.remesh(scene, context.communicator()))
-    forest.reset();
-  if (!forest)
-    {
-      forest = build_forest<dim>(scene, context.communicator());
-      forest_cells.clear();
-    }
-  const auto cells = refinement.cells<dim>(forest->coarse().places);
-  if (!std::includes(cells.begin(), cells.end(), forest_cells.begin(), forest_cells.end()))
-    forest = build_forest<dim>(scene, context.communicator());
-  forest->refine(cells);
-  forest_cells = cells;
-  return *forest;
-}
-
-/// Return the mesh of the scene with a refinement. Cells that are coarser than the cells of the
-/// opposite side of a contact are added to @p refinement. CAD files are meshed only once for this,
-/// because Gmsh does not attain the element sizes exactly. Collective.
-template <int dim>
-typename Adaptation<dim>::Mesh Adaptation<dim>::matched_mesh(Refinement &refinement)
-{
-  mesh_start_time = context.seconds();
-  const RunContext::Timer timer(context, "setup");
-  for (unsigned int pass = 0; pass < most_passes; ++pass)
-    {
-      const auto                  given = refinement;
-      const auto                  mesh  = build_mesh(scene, forest_with(refinement), false);
-      const auto                  pairs = build_pairs(scene, *mesh);
-      const mesh::Surface<dim>    surface(*mesh, contact::boundaries_of(pairs));
-      const faces::FaceShape<dim> shape(mesh->degree());
-      for (const auto &joined :
-           contact::join_pairs(surface, shape, pairs, surface.reference_positions()))
-        add_cells(*mesh, given,
-                  mesh::gather_cells(
-                    *mesh, surface.cells_of(contact::coarse_faces(surface, shape, joined.pair,
-                                                                  surface.reference_positions()))),
-                  refinement, pass == 0);
-      if (refinement == given)
-        break;
-    }
-  return build_mesh(scene, forest_with(refinement));
 }
 
 /// Return the problem on a mesh, with a contact search at the design. Collective.
@@ -293,13 +222,6 @@ bool Adaptation<dim>::is_solver_too_inexact() const
   return tolerance(*solved) > 10. * next_tolerance();
 }
 
-/// Return whether a mesh has at most 'Maximum unknowns'.
-template <int dim>
-bool Adaptation<dim>::is_affordable(const mesh::BodyMesh<dim> &mesh) const
-{
-  return unknowns(mesh) <= scene.accuracy.maximum_unknowns;
-}
-
 template <int dim>
 std::string Adaptation<dim>::reach(const double factor)
 {
@@ -351,9 +273,9 @@ std::string Adaptation<dim>::solve_refined(Refinement &next)
 {
   try
     {
-      auto mesh = matched_mesh(next);
-      if (!is_affordable(*mesh))
-        return "the next mesh has " + std::to_string(unknowns(*mesh)) +
+      auto mesh = meshes.make(next);
+      if (!meshes.is_affordable(*mesh))
+        return "the next mesh has " + std::to_string(meshes.unknowns(*mesh)) +
                " unknowns: increase 'Maximum unknowns', or relax 'Target'";
       // The mesh that is solved from goes only when the next one is solved.
       auto adapted    = solve_next(std::move(mesh));

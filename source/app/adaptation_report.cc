@@ -27,19 +27,13 @@ double contact_faces(const std::vector<state::ContactState<dim>> &states)
 } // namespace
 
 template <int dim>
-unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &mesh)
-{
-  return dim * mesh.n_global_free_nodes();
-}
-
-template <int dim>
 void Adaptation<dim>::report(const Adapted &adapted)
 {
   io::Summary::AdaptedMesh mesh;
-  mesh.dofs          = unknowns(*adapted.problem->mesh);
+  mesh.dofs          = meshes.unknowns(*adapted.problem->mesh);
   mesh.contact_faces = contact_faces(adapted.states);
   mesh.tolerance     = tolerance(adapted);
-  mesh.seconds       = context.seconds() - mesh_start_time;
+  mesh.seconds       = context.seconds() - meshes.start_time();
   for (const auto &state : adapted.states)
     mesh.f_mults += state.f_mults;
   auto &out = context.out();
@@ -156,12 +150,11 @@ std::string Adaptation<dim>::unbounded_at_edge()
   return "";
 }
 
-#define SNUG_INSTANTIATE(dim)                                                        \
-  template unsigned long Adaptation<dim>::unknowns(const mesh::BodyMesh<dim> &);     \
-  template void          Adaptation<dim>::report(const Adapted &);                   \
-  template std::string   Adaptation<dim>::failure_reason();                          \
-  template std::string   Adaptation<dim>::missed_targets(const std::string &) const; \
-  template std::string   Adaptation<dim>::unbounded_at_edge();
+#define SNUG_INSTANTIATE(dim)                                                      \
+  template void        Adaptation<dim>::report(const Adapted &);                   \
+  template std::string Adaptation<dim>::failure_reason();                          \
+  template std::string Adaptation<dim>::missed_targets(const std::string &) const; \
+  template std::string Adaptation<dim>::unbounded_at_edge();
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

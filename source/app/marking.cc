@@ -9,69 +9,28 @@
 #include <iterator>
 
 namespace snug::app {
-namespace {
-/// Return the centres of cells of the body of a CAD file, in the coordinates of the file.
-template <int dim>
-std::vector<dealii::Point<3>> places_in_file(const geometry::BodyMeshParameters &parameters,
-                                             const geometry::CoarseCells<dim>   &coarse,
-                                             const std::vector<dealii::CellId>  &cells)
-{
-  const auto                    in_file = geometry::make_imported<dim>(parameters);
-  std::vector<dealii::Point<3>> places;
-  for (const auto &cell : cells)
-    {
-      const auto x = in_file->position(coarse.point(cell, geometry::unit_centre<dim>()));
-      places.emplace_back(x[0], x[1], dim == 3 ? x[dim - 1] : 0.);
-    }
-  return places;
-}
-} // namespace
-
-/// Add the cells @p marked of the mesh that was made last, which has the refinement @p of_mesh.
-/// Elements of CAD files are halved at the centres of these cells.
-template <int dim>
-void Adaptation<dim>::add_cells(const mesh::BodyMesh<dim>         &mesh,
-                                const Refinement                  &of_mesh,
-                                const std::vector<dealii::CellId> &marked,
-                                Refinement                        &to,
-                                const bool                         mesh_files_anew) const
-{
-  const auto                                         &coarse = mesh.coarse_cells();
-  std::map<unsigned int, std::vector<dealii::CellId>> of_files;
-  for (const auto &cell : marked)
-    {
-      const unsigned int body = coarse.body(cell);
-      if (scene.bodies[body].mesh.source == geometry::Source::cad)
-        of_files[body].push_back(cell);
-      else if (mesh::level(cell) < scene.accuracy.maximum_levels)
-        to.divide(body, coarse.in_body(cell));
-    }
-  for (const auto &[body, cells] : of_files)
-    if (const auto n = of_mesh.n_halvings(body);
-        mesh_files_anew && n < scene.accuracy.maximum_levels)
-      to.halve(body, n, places_in_file<dim>(scene.bodies[body].mesh, coarse, cells));
-}
-
-/// Return the refinement with all cells of the last mesh divided and all elements halved, as far as
-/// the maximum level allows. Collective.
-template <int dim>
-Refinement Adaptation<dim>::refined_everywhere() const
-{
-  Refinement  result = last_refinement;
-  const auto &mesh   = *solved->problem->mesh;
-  add_cells(mesh, last_refinement, mesh::all_cells(mesh), result, false);
-  for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-    if (const auto n = last_refinement.n_halvings(b);
-        scene.bodies[b].mesh.source == geometry::Source::cad && n < scene.accuracy.maximum_levels)
-      result.halve(b, n, {});
-  return result;
-}
-
 template <int dim>
 bool Adaptation<dim>::reads_pressure() const
 {
   return std::any_of(demands.begin(), demands.end(),
                      [](const auto &demand) { return demand.reads_pressure; });
+}
+
+/// Return the part of pressures that the roughness of gaps between nodes may change. The part is
+/// smaller for responses that are functions of pressures, because the roughness changes others
+/// little. Collective.
+template <int dim>
+double Adaptation<dim>::allowed_roughness() const
+{
+  double                              least  = 0.1;
+  const auto                         &solver = *solved->problem->solver;
+  std::vector<response::PressureRows> none(solver.contact(0).named_pairs().size());
+  for (unsigned int d = 0; d < demands.size(); ++d)
+    if (solved->responses[demands[d].place]->measured(solver, 0, none))
+      least = std::min(least, 0.25 * demands[d].allowed(solved->measured[d]) /
+                                std::max(std::abs(solved->measured[d].value),
+                                         std::numeric_limits<double>::min()));
+  return least;
 }
 
 /// Add the cells of contacts with too few faces, if a target reads pressures, of almost closed gaps
@@ -89,11 +48,11 @@ bool Adaptation<dim>::add_underresolved(Refinement &to)
         accuracy::underresolved_contact(solver, state,
                                         reads_pressure() ? scene.accuracy.contact_faces : 0.);
       is_underresolved = is_underresolved || !faces.empty();
-      add_cells(solver.mesh(), last_refinement,
-                mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), to);
+      meshes.add_cells(solver.mesh(), last_refinement,
+                       mesh::gather_cells(solver.mesh(), solver.surface().cells_of(faces)), to);
       auto       found  = accuracy::unresolved_gaps(solver, state, allowed_roughness());
       const auto before = to;
-      add_cells(solver.mesh(), last_refinement, found.cells, to);
+      meshes.add_cells(solver.mesh(), last_refinement, found.cells, to);
       is_underresolved = is_underresolved || to != before;
       std::move(found.lines.begin(), found.lines.end(), std::back_inserter(unresolved_gaps));
     }
@@ -120,7 +79,7 @@ void Adaptation<dim>::add_marked(Refinement &to) const
         for (unsigned int cell = 0; cell < ids.size(); ++cell)
           if (flags[cell])
             marked.push_back(ids[cell]);
-        add_cells(mesh, last_refinement, marked, to);
+        meshes.add_cells(mesh, last_refinement, marked, to);
       }
 }
 
@@ -144,15 +103,12 @@ void Adaptation<dim>::add_marked_despite_narrow_contact(Refinement &to)
   solved->measured = measured;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                       \
-  template void       Adaptation<dim>::add_cells(const mesh::BodyMesh<dim> &, const Refinement &,   \
-                                                 const std::vector<dealii::CellId> &, Refinement &, \
-                                                 bool) const;                                       \
-  template bool       Adaptation<dim>::reads_pressure() const;                                      \
-  template bool       Adaptation<dim>::add_underresolved(Refinement &);                             \
-  template void       Adaptation<dim>::add_marked(Refinement &) const;                              \
-  template void       Adaptation<dim>::add_marked_despite_narrow_contact(Refinement &);             \
-  template Refinement Adaptation<dim>::refined_everywhere() const;
+#define SNUG_INSTANTIATE(dim)                                       \
+  template bool   Adaptation<dim>::reads_pressure() const;          \
+  template double Adaptation<dim>::allowed_roughness() const;       \
+  template bool   Adaptation<dim>::add_underresolved(Refinement &); \
+  template void   Adaptation<dim>::add_marked(Refinement &) const;  \
+  template void   Adaptation<dim>::add_marked_despite_narrow_contact(Refinement &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

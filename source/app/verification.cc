@@ -23,10 +23,10 @@ std::string Adaptation<dim>::verify()
 {
   if (const auto unbounded = unbounded_at_edge(); !unbounded.empty())
     return unbounded;
-  Refinement everywhere = refined_everywhere();
-  auto       mesh       = matched_mesh(everywhere);
-  if (!is_affordable(*mesh))
-    return "the mesh for verification has " + std::to_string(unknowns(*mesh)) +
+  Refinement everywhere = meshes.everywhere(*solved->problem->mesh, last_refinement);
+  auto       mesh       = meshes.make(everywhere);
+  if (!meshes.is_affordable(*mesh))
+    return "the mesh for verification has " + std::to_string(meshes.unknowns(*mesh)) +
            " unknowns; increase 'Maximum unknowns', or set 'Verify' to false";
   std::unique_ptr<Adapted> fine;
   try
@@ -55,8 +55,8 @@ std::string Adaptation<dim>::verify()
       if (error > most)
         missed += (missed.empty() ? "" : ", ") + text;
       else
-        context.out() << "verified with " << unknowns(*fine->problem->mesh) << " unknowns: " << text
-                      << std::endl;
+        context.out() << "verified with " << meshes.unknowns(*fine->problem->mesh)
+                      << " unknowns: " << text << std::endl;
       summary.verified.push_back({demands[d].name, value, error});
       finer_is_enough = finer_is_enough && rest * error <= most;
     }
@@ -78,7 +78,7 @@ bool Adaptation<dim>::is_to_be_verified() const
   double spent = cheap_unknowns;
   for (const auto &mesh : summary.meshes)
     spent = std::max(spent, 1. * mesh.dofs);
-  const double needed = (1 << dim) * unknowns(*solved->problem->mesh);
+  const double needed = (1 << dim) * meshes.unknowns(*solved->problem->mesh);
   return needed <= std::min(spent, scene.accuracy.maximum_unknowns);
 }
 

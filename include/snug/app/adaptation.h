@@ -2,8 +2,8 @@
 #define snug_app_adaptation_h
 
 #include <snug/accuracy/demand.h>
+#include <snug/app/adaptive_meshes.h>
 #include <snug/app/mesh_error.h>
-#include <snug/app/refinement.h>
 #include <snug/io/summary.h>
 
 #include <optional>
@@ -38,7 +38,9 @@ public:
 
   /// Keep a reference to @p context and a copy of @p scene. @p context and this object must outlive
   /// the problems that it makes.
-  Adaptation(RunContext &context, const scene::Scene &scene) : context(context), scene(scene) {}
+  Adaptation(RunContext &context, const scene::Scene &scene)
+    : context(context), meshes(context, scene), scene(meshes.scene())
+  {}
 
   /// Make the first mesh for @p design, or for the initial design if @p design is empty, and solve
   /// there. The first mesh is the mesh of the scene with @p refinement. Earlier meshes and the
@@ -83,16 +85,13 @@ private:
   using Mesh    = std::unique_ptr<mesh::BodyMesh<dim>>;
   using Adapted = AdaptedProblem<dim>;
 
-  RunContext                        &context;
-  scene::Scene                       scene; ///< with the meshes of CAD files that were made last
-  Design                             given_design; ///< empty: the initial design
-  std::vector<accuracy::Demand>      demands;
-  std::unique_ptr<mesh::Forest<dim>> forest;
-  std::set<dealii::CellId>           forest_cells;     ///< cells refined in the forest
-  Refinement                         last_refinement;  ///< of the last mesh
-  std::optional<Refinement>          first_refinement; ///< of the first mesh of the scene
-  Refinement                         finer;            ///< see finer_refinement()
-  double                             mesh_start_time; ///< time at which the last mesh was begun [s]
+  RunContext                   &context;
+  AdaptiveMeshes<dim>           meshes;
+  const scene::Scene           &scene;        ///< that of the meshes
+  Design                        given_design; ///< empty: the initial design
+  std::vector<accuracy::Demand> demands;
+  Refinement                    last_refinement; ///< of the last mesh
+  Refinement                    finer;           ///< see finer_refinement()
   /// number of successive meshes, up to the last one, on which contact or gaps were not resolved
   unsigned int             n_underresolved = 0;
   std::unique_ptr<Adapted> solved;
@@ -100,11 +99,7 @@ private:
   bool finer_is_enough = true; ///< errors on the finer mesh of verify() are below the targets
   std::vector<std::string> unresolved_gaps; ///< gaps that are not resolved, as log lines
 
-  static unsigned long     unknowns(const mesh::BodyMesh<dim> &mesh);
   static double            tolerance(const Adapted &adapted);
-  const mesh::Forest<dim> &forest_with(const Refinement &refinement);
-  Mesh                     matched_mesh(Refinement &refinement);
-  Mesh                     first_mesh(const Refinement &refinement);
   std::unique_ptr<Adapted> make_problem(Mesh mesh, double tolerance) const;
   void                     set_demands();
   void                     solve(Adapted &adapted, const std::vector<qp::WarmStart> &starts) const;
@@ -120,19 +115,11 @@ private:
   double                   first_tolerance(const Refinement &refinement) const;
   double                   next_tolerance() const;
   bool                     is_solver_too_inexact() const;
-  bool                     is_affordable(const mesh::BodyMesh<dim> &mesh) const;
-  void                     add_cells(const mesh::BodyMesh<dim>         &mesh,
-                                     const Refinement                  &of_mesh,
-                                     const std::vector<dealii::CellId> &marked,
-                                     Refinement                        &to,
-                                     bool                               mesh_files_anew = true) const;
   bool                     add_underresolved(Refinement &to);
   double                   allowed_roughness() const;
-  void                     resolve_data();
   bool                     is_to_be_verified() const;
   void                     add_marked(Refinement &to) const;
   void                     add_marked_despite_narrow_contact(Refinement &to);
-  Refinement               refined_everywhere() const;
   std::string              failure_reason();
   std::string              record_errors();
   std::string              solve_refined(Refinement &next);

@@ -1,0 +1,81 @@
+#ifndef snug_app_adaptive_meshes_h
+#define snug_app_adaptive_meshes_h
+
+#include <snug/app/refinement.h>
+#include <snug/mesh/body_mesh.h>
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace snug::app {
+/**
+ * This class makes the meshes of a scene with refinements. Each mesh is made from the forest of the
+ * mesh before where that is possible. Contact faces that lie opposite to each other are kept at one
+ * size. All members are collective where they make meshes.
+ */
+template <int dim>
+class AdaptiveMeshes
+{
+public:
+  using Mesh = std::unique_ptr<mesh::BodyMesh<dim>>;
+
+  /// Keep a reference to @p context and a copy of @p scene.
+  AdaptiveMeshes(RunContext &context, const scene::Scene &scene)
+    : context(context), the_scene(scene)
+  {}
+
+  /// Return the scene with the meshes of CAD files that were made last.
+  const scene::Scene &scene() const { return the_scene; }
+
+  /// Return the mesh of the scene with @p refinement, to which the refinement is added that the
+  /// loads, the surfaces and the contact of the scene need. Warn of what remains unresolved.
+  /// @throws InputError.
+  Mesh first(Refinement &refinement);
+
+  /// Return the mesh of the scene with @p refinement, to which cells are added that are coarser
+  /// than the cells of the opposite side of a contact. @throws InputError.
+  Mesh make(Refinement &refinement);
+
+  /// Add the cells @p marked of @p mesh, the one that was made last, with the refinement
+  /// @p of_mesh. Elements of CAD files are halved at the centres of these cells if
+  /// @p mesh_files_anew.
+  void add_cells(const mesh::BodyMesh<dim>         &mesh,
+                 const Refinement                  &of_mesh,
+                 const std::vector<dealii::CellId> &marked,
+                 Refinement                        &to,
+                 bool                               mesh_files_anew = true) const;
+
+  /// Return @p of_mesh with all cells of @p mesh divided and all elements halved, as far as the
+  /// maximum level allows. Collective.
+  Refinement everywhere(const mesh::BodyMesh<dim> &mesh, const Refinement &of_mesh) const;
+
+  static unsigned long unknowns(const mesh::BodyMesh<dim> &mesh)
+  {
+    return dim * mesh.n_global_free_nodes();
+  }
+
+  /// Return whether a mesh has at most 'Maximum unknowns'.
+  bool is_affordable(const mesh::BodyMesh<dim> &mesh) const
+  {
+    return double(unknowns(mesh)) <= the_scene.accuracy.maximum_unknowns;
+  }
+
+  /// Return the time at which the last mesh was begun [s].
+  double start_time() const { return begun; }
+
+private:
+  const mesh::Forest<dim> &forest_with(const Refinement &refinement);
+  void                     resolve_data(Refinement &refinement);
+
+  RunContext                        &context;
+  scene::Scene                       the_scene;
+  std::unique_ptr<mesh::Forest<dim>> forest;
+  std::set<dealii::CellId>           forest_cells;     ///< cells refined in the forest
+  std::optional<Refinement>          first_refinement; ///< of the first mesh of the scene
+  double                             begun = 0.;       ///< see start_time()
+};
+} // namespace snug::app
+
+#endif
