@@ -84,8 +84,7 @@ ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>  &solver,
                                       const std::vector<double>      &of_rows)
   : solver(solver)
   , load_case(state.load_case)
-  , positions(
-      solver.contact(load_case).placed_surface().to_space(solver.surface().gather(state.positions)))
+  , positions(solver.contact(load_case).placed_surface().to_space(state.surface_positions))
   , shape(solver.mesh().degree())
 {
   const auto &contact = solver.contact(load_case);

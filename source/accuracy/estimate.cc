@@ -79,9 +79,9 @@ public:
     auto solution = sensitivity::adjoint_states(solver, state, partials, solves, parameters);
     for (const auto &point : state.contact)
       areas.push_back(point.area);
-    rows             = solver.contact(load_case).rows(solver.surface().gather(state.positions));
+    rows             = solver.contact(load_case).rows(state.surface_positions);
     const auto &feti = solver.feti(state);
-    dual             = solution.dual;
+    forces           = solver.gluing(load_case).contact_forces(solution.dual);
     norms            = state::energy_norms(feti, solution.primal);
     torn = continuous = solution.primal;
     state::make_continuous(feti, nullptr, continuous);
@@ -99,15 +99,12 @@ public:
     z.displacement = sum(at_nodes(continuous, column[j]), -derivative.stiffness, u.displacement);
     if (derivative.motion.n_columns() > 0)
       z.displacement = sum(z.displacement, -1., at_nodes(derivative.motion, 0));
-    const auto &gluing  = solver.gluing(load_case);
     const auto &contact = solver.contact(load_case);
-    auto        forces  = gluing.gather_contact(dual.column(column[j]));
-    for (unsigned int i = 0; i < forces.size(); ++i)
-      forces[i] *= gluing.contact_scales()[i] > 0. ? 1. / gluing.contact_scales()[i] : 0.;
+    const auto &here    = forces[column[j]];
     for (unsigned int i = 0; i < contact.n_rows(); ++i)
-      z.pressures.push_back(pressure(forces[i], areas[i]));
+      z.pressures.push_back(pressure(here[i], areas[i]));
     if (contact.has_friction())
-      for (const auto &force : contact.forces(rows, forces).tangential)
+      for (const auto &force : contact.forces(rows, here).tangential)
         z.shears.push_back(-pressure(1., areas[z.shears.size()]) * force);
     z.loads   = derivative.load;
     z.thermal = -derivative.stiffness;
@@ -124,14 +121,14 @@ public:
   double norm(const unsigned int j) const { return norms[column[j]]; }
 
 private:
-  const state::StateSolver<dim> &solver;
-  const unsigned int             load_case;
-  std::vector<unsigned int>      column; ///< column of each response that needs one
-  std::vector<double>            areas;  ///< areas of the contact rows
-  std::vector<contact::Row<dim>> rows;
-  qp::MultiVector                dual;
-  feti::PrimalVectors            torn, continuous;
-  std::vector<double>            norms; ///< energy norms of the columns
+  const state::StateSolver<dim>   &solver;
+  const unsigned int               load_case;
+  std::vector<unsigned int>        column; ///< column of each response that needs one
+  std::vector<double>              areas;  ///< areas of the contact rows
+  std::vector<contact::Row<dim>>   rows;
+  std::vector<std::vector<double>> forces; ///< of the contact rows, per column
+  feti::PrimalVectors              torn, continuous;
+  std::vector<double>              norms; ///< energy norms of the columns
 };
 
 /// Return the displacement and the pressures of the state.

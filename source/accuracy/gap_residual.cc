@@ -30,7 +30,7 @@ dealii::Tensor<1, dim> sum(const std::vector<std::pair<unsigned int, double>> &w
 template <int dim>
 GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                               const state::ContactState<dim> &state)
-  : solver(solver), load_case(state.load_case), positions(solver.surface().gather(state.positions))
+  : solver(solver), load_case(state.load_case), positions(state.surface_positions)
 {
   const auto &mesh    = solver.mesh();
   const auto &surface = solver.surface();
@@ -38,7 +38,7 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
   const auto &placed  = contact.placed_surface();
   const auto  x       = placed.to_space(positions);
   const auto  held    = placed.turned(solver.held().directions(surface, state.positions));
-  const auto  u       = placed.turned(surface.gather(state.displacement));
+  const auto  u       = placed.turned(state.surface_displacement);
   const auto  here    = mesh::owners_values(mesh, state.positions);
   const faces::FaceShape<dim>   shape(mesh.degree());
   const dealii::QGauss<dim - 1> gauss(n_gauss);

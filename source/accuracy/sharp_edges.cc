@@ -44,7 +44,7 @@ public:
     , surface(solver.surface())
     , shape(solver.mesh().degree())
     , local(state.positions)
-    , x(surface.gather(state.positions))
+    , x(state.surface_positions)
   {}
 
   /// Return the surface nodes of the sharp edges of a side. @p is_mirrored states that the other

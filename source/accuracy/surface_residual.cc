@@ -349,7 +349,7 @@ std::vector<RoughPressure> rough_pressures(const state::StateSolver<dim>  &solve
   const auto      &contact = solver.contact(state.load_case);
   const auto      &placed  = contact.placed_surface();
   const auto      &pairs   = contact.pairs();
-  const auto       at      = surface.gather(state.positions);
+  const auto      &at      = state.surface_positions;
   const auto       x       = placed.to_space(at);
   const auto       held    = placed.turned(solver.held().directions(surface, state.positions));
   const auto       rows    = contact.rows(at);

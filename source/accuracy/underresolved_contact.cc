@@ -19,9 +19,8 @@ template <int dim>
 std::vector<unsigned int> nearly_closed(const state::StateSolver<dim>  &solver,
                                         const state::ContactState<dim> &state)
 {
-  const auto &places = solver.contact(state.load_case).places();
-  const auto  sizes =
-    contact::node_face_sizes(solver.surface(), solver.surface().gather(state.positions));
+  const auto       &places = solver.contact(state.load_case).places();
+  const auto        sizes  = contact::node_face_sizes(solver.surface(), state.surface_positions);
   std::vector<bool> has_force(solver.contact(state.load_case).pairs().size(), false);
   // For each pair, find the row with the minimum gap.
   std::vector<unsigned int> nearest(has_force.size(), places.size());

@@ -42,9 +42,8 @@ public:
                const state::ContactState<dim> &state) const override
   {
     const auto shares = shares_of(solver, state.load_case);
-    const auto rows =
-      solver.contact(state.load_case).rows(solver.surface().gather(state.positions));
-    double force = 0.;
+    const auto rows   = solver.contact(state.load_case).rows(state.surface_positions);
+    double     force  = 0.;
     for (unsigned int i = 0; i < rows.size(); ++i)
       if (shares[i] != 0.)
         {
@@ -97,7 +96,7 @@ public:
     if (parameters.component == Component::normal)
       return result;
     const auto  e          = unit_vector<dim>(parameters);
-    const auto  x          = solver.surface().gather(state.positions);
+    const auto &x          = state.surface_positions;
     const auto &contact    = solver.contact(state.load_case);
     const auto  rows       = contact.rows(x);
     const auto  directions = contact.tangent_directions(rows);

@@ -108,8 +108,7 @@ public:
       }
     if (!of_pressure)
       {
-        const auto directions =
-          contact.tangent_directions(contact.rows(solver.surface().gather(state.positions)));
+        const auto directions = contact.tangent_directions(contact.rows(state.surface_positions));
         for (unsigned int j = 0; j < directions.size(); ++j)
           {
             const unsigned int i        = contact.tangents()[j].row;
@@ -125,8 +124,7 @@ public:
       }
     // The gradient at the surface nodes is replicated: each rank adds the gradient at its own
     // nodes.
-    solver.surface().add_owned(contact.area_gradient(solver.surface().gather(state.positions),
-                                                     measured.by_area),
+    solver.surface().add_owned(contact.area_gradient(state.surface_positions, measured.by_area),
                                result.positions);
     return result;
   }

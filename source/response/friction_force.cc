@@ -53,7 +53,7 @@ public:
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
-    const auto    x       = solver.surface().gather(state.positions);
+    const auto   &x       = state.surface_positions;
     const auto   &contact = solver.contact(state.load_case);
     const auto    shares  = row_shares_of_first_side(solver, parameters.pair, state.load_case);
     Partials<dim> result;
@@ -97,7 +97,7 @@ private:
     const auto  shares  = row_shares_of_first_side(solver, parameters.pair, state.load_case);
     const auto  rows    = solver.rows(state.positions, state.load_case);
     const auto  all     = state::contact_row_forces(solver, state);
-    const auto  x       = solver.surface().gather(state.positions);
+    const auto &x       = state.surface_positions;
     for (unsigned int p = 0; p < contact.pairs().size(); ++p)
       {
         std::vector<double> forces(all.size(), 0.);

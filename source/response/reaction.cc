@@ -65,7 +65,7 @@ public:
     const auto    v          = nodal_motion(solver, state);
     const auto    v_torn     = torn(solver, v);
     const auto    on_surface = surface.gather(v);
-    const auto    x          = surface.gather(state.positions);
+    const auto   &x          = state.surface_positions;
     const auto    rows       = solver.rows(state.positions, state.load_case);
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());

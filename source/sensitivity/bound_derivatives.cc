@@ -34,7 +34,7 @@ qp::MultiVector bound_derivatives(const state::StateSolver<dim>       &solver,
   if (!has_bounds(solver, state))
     return qp::MultiVector(0, 0);
   const auto     &surface    = solver.surface();
-  const auto      x          = surface.gather(state.positions);
+  const auto     &x          = state.surface_positions;
   const auto      per_area   = bounds_per_area(solver, state);
   const auto     &of_contact = solver.gluing(state.load_case).contact_of_row();
   const auto      slips      = strong_rows(solver, state).slips();
@@ -66,15 +66,14 @@ void add_bound_gradient(const state::StateSolver<dim>  &solver,
   for (const qp::Slip &slip : free_rows.slips())
     for (unsigned int t = 0; t < slip.cone.n_tangents; ++t)
       along(slip.cone.normal) += slip.direction[t] * of_rows(slip.cone.tangents[t], j);
-  auto       factors  = solver.gluing(state.load_case).gather_contact(along.column(0));
+  auto       factors  = solver.gluing(state.load_case).gather_contact(along).front();
   const auto per_area = bounds_per_area(solver, state);
   factors.resize(per_area.size());
   for (unsigned int i = 0; i < factors.size(); ++i)
     factors[i] *= per_area[i];
   const auto &surface = solver.surface();
-  surface.add_owned(
-    solver.contact(state.load_case).area_gradient(surface.gather(state.positions), factors),
-    gradient);
+  surface.add_owned(solver.contact(state.load_case).area_gradient(state.surface_positions, factors),
+                    gradient);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                            \

@@ -117,14 +117,11 @@ void add_state_derivatives(const GradientProblem<dim> &problem,
                            Gradients<dim>             &result)
 {
   const auto &gluing = problem.solver.gluing(problem.state.load_case);
-  const auto &scales = gluing.contact_scales();
   for (unsigned int j = 0; j < problem.basis.n_variables(); ++j)
+    result.displacement.push_back(state::nodal_values(problem.solver, derivatives.primal, j));
+  for (auto &forces : gluing.contact_forces(derivatives.dual))
     {
-      result.displacement.push_back(state::nodal_values(problem.solver, derivatives.primal, j));
-      auto forces = gluing.gather_contact(derivatives.dual.column(j));
       forces.resize(gluing.n_contact_rows());
-      for (unsigned int i = 0; i < forces.size(); ++i)
-        forces[i] = scales[i] == 0. ? 0. : forces[i] / scales[i];
       result.forces.push_back(std::move(forces));
     }
 }

@@ -19,18 +19,17 @@ void add_rows(const state::StateSolver<dim>  &solver,
   const auto &surface = solver.surface();
   const auto &contact = solver.contact(state.load_case);
   const auto &gluing  = solver.gluing(state.load_case);
-  const auto  X       = surface.gather(state.positions);
+  const auto &X       = state.surface_positions;
   const auto  rows    = contact.rows(X);
-  const auto  forces  = [&](const double factor, const double *multipliers) {
-    auto values = gluing.gather_contact(multipliers);
-    for (unsigned int i = 0; i < values.size(); ++i)
-      values[i] *= gluing.contact_scales()[i] == 0. ? 0. : factor / gluing.contact_scales()[i];
-    return contact.forces(rows, values);
-  };
-  const auto minus_eta = forces(-1., adjoint.dual.column(j));
-  const auto lambda    = forces(1., state.dual.lambda.column(0));
+  auto        both    = state.dual.lambda; // and -eta
+  both.append(qp::MultiVector(both.n_rows()));
+  for (unsigned int i = 0; i < both.n_rows(); ++i)
+    both(i, 1) = -adjoint.dual(i, j);
+  const auto forces    = gluing.contact_forces(both);
+  const auto lambda    = contact.forces(rows, forces[0]);
+  const auto minus_eta = contact.forces(rows, forces[1]);
   // The contact energy force (c.u - gap) without its gap is linear in u.
-  auto       sum  = surface.gather(state.displacement);
+  auto       sum  = state.surface_displacement;
   const auto of_u = contact.energy_gradient(X, sum, minus_eta);
   sum             = surface.gather(state::nodal_values(solver, adjoint.primal, j));
   const auto of_w = contact.energy_gradient(X, sum, lambda);
@@ -75,10 +74,10 @@ void add_held(const state::StateSolver<dim>  &solver,
   Field<dim> sum(gradient.size());
   solver.held().add_energy_gradient(
     state.positions, state.displacement,
-    solver.gluing(state.load_case).reactions(adjoint.dual.column(j), rows), sum);
+    solver.gluing(state.load_case).reactions(adjoint.dual.columns_from(j, 1), rows), sum);
   solver.held().add_energy_gradient(
     state.positions, state::nodal_values(solver, adjoint.primal, j),
-    solver.gluing(state.load_case).reactions(state.dual.lambda.column(0), rows), sum);
+    solver.gluing(state.load_case).reactions(state.dual.lambda, rows), sum);
   for (unsigned int a = 0; a < sum.size(); ++a)
     gradient[a] -= sum[a];
 }

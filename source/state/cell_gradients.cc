@@ -131,16 +131,16 @@ void add_constraint_gradient(const state::StateSolver<dim>       &solver,
   // Contact data are replicated, and the gradient at surface nodes is complete on all ranks. Each
   // rank adds its own nodes only, because otherwise the sum over ranks would count the gradient
   // repeatedly.
-  const auto at_surface = solver.contact(state.load_case)
-                            .energy_gradient(surface.gather(state.positions),
-                                             surface.gather(state.displacement), {forces});
+  const auto at_surface =
+    solver.contact(state.load_case)
+      .energy_gradient(state.surface_positions, state.surface_displacement, {forces});
   surface.add_owned(at_surface, gradient);
   // reactions() treats contact rows as if they were not projected off the held directions, as
   // energy_gradient() above does.
   if (solver.held().follow_positions())
     solver.held().add_energy_gradient(state.positions, state.displacement,
                                       solver.gluing(state.load_case)
-                                        .reactions(state.dual.lambda.column(0),
+                                        .reactions(state.dual.lambda,
                                                    solver.rows(state.positions, state.load_case)),
                                       gradient);
 }

@@ -85,7 +85,7 @@ std::vector<ContactPatch> contact_patches(const StateSolver<dim>  &solver,
 {
   const auto               &contact = solver.contact(state.load_case);
   const auto               &places  = contact.places();
-  const auto                x       = solver.surface().gather(state.positions);
+  const auto               &x       = state.surface_positions;
   const auto                sizes   = contact::node_face_sizes(solver.surface(), x);
   std::vector<ContactPatch> patches;
   std::vector<double>       forces, of_pair(contact.pairs().size(), 0.);

@@ -39,12 +39,7 @@ template <int dim>
 std::vector<double> contact_row_forces(const StateSolver<dim>  &solver,
                                        const ContactState<dim> &state)
 {
-  const auto &gluing = solver.gluing(state.load_case);
-  auto        forces = gluing.gather_contact(state.dual.lambda.column(0));
-  for (unsigned int i = 0; i < forces.size(); ++i)
-    // A row that supports hold entirely has no multiplier.
-    forces[i] = gluing.contact_scales()[i] == 0. ? 0. : forces[i] / gluing.contact_scales()[i];
-  return forces;
+  return solver.gluing(state.load_case).contact_forces(state.dual.lambda).front();
 }
 
 namespace {
@@ -102,30 +97,41 @@ void describe_energies(const StateSolver<dim> &solver, ContactState<dim> &state)
   state.energy += constant;
 }
 
-/// Return the contacts of all ranks that slip, ascending. Collective.
-template <int dim>
-std::vector<unsigned int> contacts_that_slip(const StateSolver<dim>  &solver,
-                                             const ContactState<dim> &state)
+/// Values of all contact rows on all ranks, in the units of the dual rows.
+struct RowValues
 {
-  const auto         &gluing = solver.gluing(state.load_case);
-  std::vector<double> flags(solver.feti(state).n_owned(), 0.);
+  std::vector<double> lambda, gaps; ///< lambda and g - B u
+  std::vector<double> diagonal;     ///< F_ii
+  std::vector<double> active, slip; ///< 1 if the row is in the active set, or the contact slips
+  std::vector<double> stretch;      ///< D lambda of held tangents
+};
+
+template <int dim>
+RowValues row_values(const StateSolver<dim> &solver, const ContactState<dim> &state)
+{
+  const auto     &feti = solver.feti(state);
+  const auto      Bu   = feti.linearization().multiply_B(state.u);
+  qp::MultiVector stretch(feti.n_owned()), owned(feti.n_owned(), 6);
+  feti.linearization().add_compliance(1., state.dual.lambda, stretch);
+  for (unsigned int i = 0; i < feti.n_owned(); ++i)
+    {
+      owned(i, 0) = state.dual.lambda(i);
+      owned(i, 1) = feti.g()(i) - Bu(i);
+      owned(i, 2) = feti.diagonal()[i];
+      owned(i, 3) = state.dual.active[i];
+      owned(i, 5) = stretch(i);
+    }
   for (const qp::Slip &slip : state.dual.slips)
-    flags[slip.cone.normal] = 1.;
-  const auto                all = gluing.gather_contact(flags.data());
-  std::vector<unsigned int> result;
-  for (unsigned int i = 0; i < gluing.n_contact_rows(); ++i)
-    if (all[i] != 0.)
-      result.push_back(i);
-  return result;
+    owned(slip.cone.normal, 4) = 1.;
+  const auto all = solver.gluing(state.load_case).gather_contact(owned);
+  return {all[0], all[1], all[2], all[3], all[4], all[5]};
 }
 
-/// Set shear, slip and status of the contact points. @p lambda and @p gaps, lambda and g - B u, are
-/// those of all contact rows; @p length is max F_ii lambda_i.
+/// Set shear, slip and status of the contact points. @p length is max F_ii lambda_i.
 template <int dim>
 void describe_friction(const StateSolver<dim>     &solver,
                        const RowCoefficients<dim> &rows,
-                       const std::vector<double>  &lambda,
-                       const std::vector<double>  &gaps,
+                       const RowValues            &of_rows,
                        const double                length,
                        ContactState<dim>          &state)
 {
@@ -133,14 +139,11 @@ void describe_friction(const StateSolver<dim>     &solver,
   const auto        &scales     = solver.gluing(state.load_case).contact_scales();
   const auto         directions = contact.tangent_directions(rows.contact);
   const unsigned int n          = contact.n_rows();
-  qp::MultiVector    stretch(state.dual.lambda.n_rows()); // of held tangents
-  solver.feti(state).linearization().add_compliance(1., state.dual.lambda, stretch);
-  const auto stretches = solver.gluing(state.load_case).gather_contact(stretch.column(0));
-  state.slips          = state.slips_before;
+  state.slips                   = state.slips_before;
   state.slips.resize(directions.size(), 0.);
   for (unsigned int j = 0; j < directions.size(); ++j)
     {
-      state.slips[j] -= (gaps[n + j] + stretches[n + j]) * scales[n + j];
+      state.slips[j] -= (of_rows.gaps[n + j] + of_rows.stretch[n + j]) * scales[n + j];
       auto &point = state.contact[contact.tangents()[j].row];
       if (scales[n + j] == 0.)
         continue;
@@ -149,12 +152,13 @@ void describe_friction(const StateSolver<dim>     &solver,
       point.friction = point.active ? FrictionStatus::stick : FrictionStatus::open;
       for (int d = 0; d < dim; ++d)
         {
-          point.shear[d] += lambda[n + j] / scales[n + j] * directions[j][d];
-          point.slip[d] -= gaps[n + j] * scales[n + j] * directions[j][d];
+          point.shear[d] += of_rows.lambda[n + j] / scales[n + j] * directions[j][d];
+          point.slip[d] -= of_rows.gaps[n + j] * scales[n + j] * directions[j][d];
         }
     }
-  for (const auto &slip : contacts_that_slip(solver, state))
-    state.contact[slip].friction = FrictionStatus::slip;
+  for (unsigned int i = 0; i < n; ++i)
+    if (of_rows.slip[i] != 0.)
+      state.contact[i].friction = FrictionStatus::slip;
   for (ContactPoint &point : state.contact)
     {
       if (point.friction == FrictionStatus::none)
@@ -191,18 +195,10 @@ void describe_contact(const StateSolver<dim>     &solver,
                       const RowCoefficients<dim> &rows,
                       ContactState<dim>          &state)
 {
-  const auto &feti  = solver.feti(state);
-  auto        slack = feti.g();
-  // g - B u is the remaining gap, in the units of the scaled rows.
-  slack.add(-1., feti.linearization().multiply_B(state.u));
-  const std::vector<double> flags(state.dual.active.begin(), state.dual.active.end());
-  const auto               &gluing = solver.gluing(state.load_case);
-  const auto                lambda = gluing.gather_contact(state.dual.lambda.column(0));
-  const auto                gaps   = gluing.gather_contact(slack.column(0));
-  const auto                F_ii   = gluing.gather_contact(feti.diagonal().data());
-  const auto                active = gluing.gather_contact(flags.data());
-  const auto                areas =
-    solver.contact(state.load_case).areas(solver.surface().gather(state.positions));
+  const auto &gluing  = solver.gluing(state.load_case);
+  const auto  of_rows = row_values(solver, state);
+  const auto &lambda = of_rows.lambda, &gaps = of_rows.gaps, &F_ii = of_rows.diagonal;
+  const auto  areas = solver.contact(state.load_case).areas(state.surface_positions);
   // Maximum lambda_i, maximum F_ii lambda_i, with which gaps are compared, and maximum area.
   double     largest = 0., largest_gap = 0., largest_area = 0.;
   const auto n_contacts = gluing.n_contact_rows();
@@ -227,7 +223,7 @@ void describe_contact(const StateSolver<dim>     &solver,
       // The area may be round-off, as on the axis with degree 2.
       if (areas[i] > 1e-10 * largest_area)
         point.pressure = point.mean = point.force / areas[i];
-      point.active = active[i] != 0.;
+      point.active = of_rows.active[i] != 0.;
       // Decide by size, not by the active set, because a contact in the set may carry no force.
       point.strong = lambda[i] > strong_part * largest;
       // A weak contact opens along one direction of the design and presses along the opposite one.
@@ -239,7 +235,7 @@ void describe_contact(const StateSolver<dim>     &solver,
     }
   if (solver.mesh().degree() == 2)
     set_nodal_pressures(solver, state);
-  describe_friction(solver, rows, lambda, gaps, largest_gap, state);
+  describe_friction(solver, rows, of_rows, largest_gap, state);
 }
 
 template <int dim>
@@ -310,7 +306,8 @@ void recover_contact_results(const StateSolver<dim>     &solver,
   const auto &feti = solver.feti(state);
   auto        u    = state.u;
   make_continuous(feti, &feti.g(), u);
-  state.displacement = nodal_values(solver, u, 0);
+  state.displacement         = nodal_values(solver, u, 0);
+  state.surface_displacement = solver.surface().gather(state.displacement);
   describe_energies(solver, state);
   describe_contact(solver, rows, state);
   sum_up_contact(solver.contact(state.load_case), rows, state);

@@ -233,21 +233,38 @@ void Gluing<dim>::add_to_tangents(const std::vector<double> &values, qp::MultiVe
 }
 
 template <int dim>
-std::vector<double> Gluing<dim>::gather_contact(const double *owned_values) const
+std::vector<std::vector<double>> Gluing<dim>::gather_contact(const qp::MultiVector &owned) const
 {
-  std::vector<double> values(rows.scales.size(), 0.);
-  for (unsigned int row = 0; row < rows.layout->n_owned(); ++row)
-    if (rows.owned[row].source == Source::contact)
-      values[rows.owned[row].index] = owned_values[row];
+  const std::size_t   n = rows.scales.size();
+  std::vector<double> values(n * owned.n_columns(), 0.);
+  for (unsigned int k = 0; k < owned.n_columns(); ++k)
+    for (unsigned int row = 0; row < rows.layout->n_owned(); ++row)
+      if (rows.owned[row].source == Source::contact)
+        values[k * n + rows.owned[row].index] = owned(row, k);
   // Each row has one owner, so every sum has one nonzero term. The result is exact and does not
   // depend on the number of ranks.
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), narrow<int>(values.size()), MPI_DOUBLE, MPI_SUM,
                 rows.layout->communicator());
-  return values;
+  std::vector<std::vector<double>> result;
+  for (unsigned int k = 0; k < owned.n_columns(); ++k)
+    result.emplace_back(values.begin() + k * n, values.begin() + (k + 1) * n);
+  return result;
 }
 
 template <int dim>
-std::vector<std::vector<double>> Gluing<dim>::reactions(const double               *owned_lambda,
+std::vector<std::vector<double>>
+Gluing<dim>::contact_forces(const qp::MultiVector &multipliers) const
+{
+  auto result = gather_contact(multipliers);
+  for (auto &forces : result)
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      // A row that supports hold entirely has no multiplier.
+      forces[i] = rows.scales[i] == 0. ? 0. : forces[i] / rows.scales[i];
+  return result;
+}
+
+template <int dim>
+std::vector<std::vector<double>> Gluing<dim>::reactions(const qp::MultiVector      &lambda,
                                                         const RowCoefficients<dim> &now) const
 {
   std::vector<double> values(dim * held.n_nodes(), 0.);
@@ -255,23 +272,22 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const double            
     if (rows.owned[row].source == Source::held)
       // Once the copies are equal, row and right-hand side are sqrt(m) times q . u = s.
       values[dim * rows.owned[row].index + rows.owned[row].item] =
-        rows.owned[row].factor * owned_lambda[row];
+        rows.owned[row].factor * lambda(row);
   MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE, MPI_SUM,
                 rows.layout->communicator());
   // lambda_i / nr_i (projected c . u - projected gap) contains -(c . q_k) (q_k . u - s_k) in
   // addition to c . u - gap, and this part goes to the supports. Add it after the sum over ranks,
   // because gathered multipliers are the same on all ranks.
-  const auto lambda = gather_contact(owned_lambda);
-  for (unsigned int i = 0; i < lambda.size(); ++i)
+  const auto forces = contact_forces(lambda).front();
+  for (unsigned int i = 0; i < forces.size(); ++i)
     for (const auto &c : now.row(i).coefficients)
       {
         const unsigned int h = rows.held_of_surface[c.first];
-        // A vanished row carries no force.
-        if (h == held.n_nodes() || rows.scales[i] == 0.)
+        if (h == held.n_nodes())
           continue;
         const auto &directions = now.held[h].directions;
         for (unsigned int k = 0; k < directions.size(); ++k)
-          values[dim * h + k] -= lambda[i] / rows.scales[i] * (c.second * directions[k]);
+          values[dim * h + k] -= forces[i] * (c.second * directions[k]);
       }
   std::vector<std::vector<double>> result;
   for (unsigned int h = 0; h < held.n_nodes(); ++h)

@@ -36,9 +36,9 @@ void add_supports(const StateSolver<dim>     &solver,
 {
   std::map<std::string, std::vector<Force<dim>>> forces;
   std::vector<std::string>                       names; // in the order of the nodes
-  for (const auto &force : solver.held().forces(
-         state.positions,
-         solver.gluing(state.load_case).reactions(state.dual.lambda.column(0), rows)))
+  for (const auto &force :
+       solver.held().forces(state.positions,
+                            solver.gluing(state.load_case).reactions(state.dual.lambda, rows)))
     {
       if (force.face.empty())
         continue;
@@ -128,8 +128,8 @@ void add_places(const StateSolver<dim>     &solver,
 {
   const auto                    &contact = solver.contact(state.load_case);
   const auto                    &placed  = contact.placed_surface();
-  const auto                     x     = placed.to_space(solver.surface().gather(state.positions));
-  const auto                     sizes = contact::node_face_sizes(solver.surface(), x);
+  const auto                     x       = placed.to_space(state.surface_positions);
+  const auto                     sizes   = contact::node_face_sizes(solver.surface(), x);
   std::vector<std::vector<bool>> on_slave_side;
   for (const auto &pair : contact.pairs())
     {

@@ -149,6 +149,7 @@ ContactState<dim> StateSolver<dim>::solve_present(const Field               &pos
   const auto       &geometry = problem->geometry();
   ContactState<dim> state;
   state.positions             = positions;
+  state.surface_positions     = surface().gather(positions);
   state.load_case             = load_case;
   state.pairing               = n_pairings;
   state.tolerance             = tolerance;

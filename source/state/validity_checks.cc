@@ -95,8 +95,8 @@ void assess_missed_nodes(const StateSolver<dim>               &solver,
   const auto       &surface = solver.surface();
   const auto       &contact = solver.contact(state.load_case);
   const auto       &placed  = contact.placed_surface();
-  const auto        x       = placed.to_space(surface.gather(state.positions));
-  const auto        u       = placed.turned(surface.gather(state.displacement));
+  const auto        x       = placed.to_space(state.surface_positions);
+  const auto        u       = placed.turned(state.surface_displacement);
   const auto        held    = placed.turned(solver.held().directions(surface, state.positions));
   std::vector<bool> has_row(surface.n_nodes(), false);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
@@ -162,11 +162,10 @@ ValidityChecks check_validity(const StateSolver<dim>               &solver,
     *of_rank = dealii::Utilities::MPI::max(*of_rank, comm);
   result.displacement /= farthest;
 
-  const auto &surface = solver.surface();
   const auto &contact = solver.contact(state.load_case);
-  const auto  x       = surface.gather(state.positions);
-  const auto  slips = contact.tangential_slips(x, contact_rows, surface.gather(state.displacement));
-  const auto  drifts = contact.pairing_drifts(x, contact_rows);
+  const auto &x       = state.surface_positions;
+  const auto  slips   = contact.tangential_slips(x, contact_rows, state.surface_displacement);
+  const auto  drifts  = contact.pairing_drifts(x, contact_rows);
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
     {
       // Open contacts count as well, because they would close at the wrong point.

@@ -4,6 +4,7 @@
 #include <snug/base/values.h>
 #include <snug/feti/subdomain_system.h>
 #include <snug/mesh/body_mesh.h>
+#include <snug/mesh/surface.h>
 #include <snug/qp/solver.h>
 
 #include <algorithm>
@@ -148,12 +149,14 @@ struct ContactState
 {
   using Field = typename mesh::BodyMesh<dim>::Field;
 
-  unsigned int        load_case = 0;
-  unsigned int        pairing   = 0; ///< number of new contact searches before this state
-  Field               positions;     ///< [length]
-  Field               displacement;  ///< continuous, see make_continuous() [length]
-  feti::PrimalVectors u;             ///< per subdomain
-  qp::DualSolution    dual;
+  unsigned int load_case = 0;
+  unsigned int pairing   = 0; ///< number of new contact searches before this state
+  Field        positions;     ///< [length]
+  Field        displacement;  ///< continuous, see make_continuous() [length]
+  /// both at the nodes of the contact surface, on all ranks
+  typename mesh::Surface<dim>::Field surface_positions, surface_displacement;
+  feti::PrimalVectors                u; ///< per subdomain
+  qp::DualSolution                   dual;
   /// slips of the tangential rows from the start of a sequence of load steps: before this step, or
   /// empty in the first step, and after it [length]
   std::vector<double>         slips_before, slips;

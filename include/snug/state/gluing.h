@@ -84,9 +84,13 @@ public:
   /// row, and their gaps must not be negative.
   std::vector<unsigned int> vanished_rows() const;
 
-  /// Return the values of the owned contact rows on all ranks: normal rows, then tangential rows.
-  /// Collective.
-  std::vector<double> gather_contact(const double *owned_values) const;
+  /// Return the values of the owned contact rows on all ranks, per column: normal rows, then
+  /// tangential rows. Collective.
+  std::vector<std::vector<double>> gather_contact(const qp::MultiVector &owned) const;
+
+  /// Return lambda_i / nr_i of the contact rows on all ranks, per column of @p multipliers: the
+  /// forces of the rows, or their derivatives. Rows without a multiplier have none. Collective.
+  std::vector<std::vector<double>> contact_forces(const qp::MultiVector &multipliers) const;
 
   /// Return the friction cones of the owned contacts, for the law of each contact and its area
   /// [length^2].
@@ -94,11 +98,11 @@ public:
                           const std::vector<double>   &areas) const;
 
   /**
-   * Return the multipliers of q . u = s at each held node and direction, on all ranks, as if
-   * contact rows were not projected off the held directions. The force of the support on the body
-   * is -reaction * q [force]. Collective.
+   * Return the multipliers @p lambda (one column) of q . u = s at each held node and direction, on
+   * all ranks, as if contact rows were not projected off the held directions. The force of the
+   * support on the body is -reaction * q [force]. Collective.
    */
-  std::vector<std::vector<double>> reactions(const double               *owned_lambda,
+  std::vector<std::vector<double>> reactions(const qp::MultiVector      &lambda,
                                              const RowCoefficients<dim> &rows) const;
 
   /// @name Springs, in the order of RowCoefficients::springs

@@ -166,9 +166,9 @@ void expect_rows_of_B(const TestScene<dim> &scene)
       field[problem.tearing.subdomains[s].nodes[a / dim]][a % dim] = u[s](a);
   const auto at_surface = surface.gather(field);
   const auto rows       = problem.solver.rows(state.positions, 0);
-  const auto of_rows    = gluing.gather_contact(Bu.column(0));
+  const auto of_rows    = gluing.gather_contact(Bu).front();
   const auto right      = gluing.right_hand_side(rows, 0);
-  const auto gaps       = gluing.gather_contact(right.column(0));
+  const auto gaps       = gluing.gather_contact(right).front();
   ASSERT_EQ(rows.contact.size(), gluing.n_contact_rows());
   EXPECT_TRUE(gluing.vanished_rows().empty());
   for (unsigned int i = 0; i < rows.contact.size(); ++i)
