@@ -41,8 +41,9 @@ public:
   /// another design is analysed or contact is searched. @throws TangledMesh, SolveError.
   Analysis<dim> &at(const Design &design);
 
-  /// Return the gradients of @p measured responses at @p design, unless they are known those of the
-  /// first call for this design. Afterwards the solver is at the geometry of its states.
+  /// Return the gradients of @p measured responses at @p design. The first call for a design
+  /// computes them; later calls return the same ones, so that they must measure the same responses.
+  /// Afterwards the solver is at the geometry of its states.
   const sensitivity::Gradients<dim> &gradients(const Design                              &design,
                                                const sensitivity::MeasuredResponses<dim> &measured,
                                                const sensitivity::GradientParameters &parameters);
