@@ -171,10 +171,11 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
       model.bodies.back().materials   = materials_of(scene, body, mesh.geometry(b).region_names());
       model.bodies.back().formulation = body.formulation;
     }
-  model.load_cases = build_load_cases(scene, mesh);
-  model.supports   = build_supports(scene, mesh);
-  model.springs    = build_springs(scene, mesh);
-  model.pairs      = build_pairs(scene, mesh);
+  model.load_cases     = build_load_cases(scene, mesh);
+  model.supports       = build_supports(scene, mesh);
+  model.point_supports = build_point_supports(scene, mesh);
+  model.springs        = build_springs(scene, mesh);
+  model.pairs          = build_pairs(scene, mesh);
   return model;
 }
 

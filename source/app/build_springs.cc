@@ -57,8 +57,34 @@ std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scen
   return springs;
 }
 
-template std::vector<supports::Spring<2>> build_springs(const scene::Scene &,
-                                                        const mesh::BodyMesh<2> &);
-template std::vector<supports::Spring<3>> build_springs(const scene::Scene &,
-                                                        const mesh::BodyMesh<3> &);
+template <int dim>
+std::vector<supports::PointSupport<dim>> build_point_supports(const scene::Scene        &scene,
+                                                              const mesh::BodyMesh<dim> &mesh)
+{
+  std::vector<supports::PointSupport<dim>> supports;
+  for (const auto &body : scene.bodies)
+    for (const auto &[boundary, text] : body.point_supports)
+      {
+        const auto        hold  = scene::point_hold(text, dim);
+        const std::string face  = body.name + "." + boundary;
+        const auto        where = find_face(scene, mesh, face);
+        const std::string name =
+          "entry '" + body.section() + "/Point supports' = '" + boundary + ": " + text + "'";
+        dealii::Point<dim> place;
+        for (unsigned int c = 0; c < dim; ++c)
+          place[c] = hold.at[c];
+        for (const unsigned int c : hold.components)
+          supports.push_back({where.first, where.second, c, hold.value, place, name, face});
+      }
+  return supports;
+}
+
+template std::vector<supports::PointSupport<2>> build_point_supports(const scene::Scene &,
+                                                                     const mesh::BodyMesh<2> &);
+template std::vector<supports::PointSupport<3>> build_point_supports(const scene::Scene &,
+                                                                     const mesh::BodyMesh<3> &);
+template std::vector<supports::Spring<2>>       build_springs(const scene::Scene &,
+                                                              const mesh::BodyMesh<2> &);
+template std::vector<supports::Spring<3>>       build_springs(const scene::Scene &,
+                                                              const mesh::BodyMesh<3> &);
 } // namespace snug::app

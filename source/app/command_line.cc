@@ -54,6 +54,8 @@ private:
       options.sets.push_back(value_of(argument, equals));
     else if (name == "--output")
       options.output = value_of(argument, equals);
+    else if (name == "--leave-out")
+      options.leave_out = value_of(argument, equals);
     else if (name == "--petsc")
       options.petsc +=
         (options.petsc.empty() ? "" : " ") + petsc_options(value_of(argument, equals));
@@ -139,7 +141,7 @@ std::string usage()
 {
   return R"(usage:
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
-                  [--petsc "-NAME VALUE ..."]...
+                  [--petsc "-NAME VALUE ..."]... [--leave-out "KEYWORD, ..."]
     snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
     snug --translate FILE.inp
     snug --validate FILE.prm | --print-parameters | --help | --version
@@ -155,6 +157,9 @@ also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
     --petsc "-NAME VALUE ..."
                         set options of PETSc, for example another package for K^+:
                         --petsc "-kplus_pc_factor_mat_solver_type mumps"
+    --leave-out "tie, equation"
+                        run the model of a deck without these of its parts, which have
+                        no translation
     --restart           continue an interrupted optimization
     --validate          check the file, list bodies and boundaries with areas and
                         bounding boxes, without a solve

@@ -4,6 +4,7 @@
 #include <snug/app/mesh_checks.h>
 #include <snug/app/mesh_summary.h>
 #include <snug/app/optimize.h>
+#include <snug/app/read_deck.h>
 #include <snug/app/sensitivity.h>
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
@@ -306,37 +307,6 @@ void validate(RunContext &context, const scene::Scene &scene)
     validate_in<3>(context, scene);
 }
 
-namespace {
-/// Replace a deck by its parameter file, and return what the parameter file lacks.
-/// @throws InputError naming the file, also if the text must be a deck, but is not.
-std::vector<std::string> translate_deck(scene::SceneSource &source, const bool must_be_deck)
-{
-  if (!deck::is_deck(source.text))
-    {
-      if (must_be_deck)
-        throw InputError(source.file + ": option '--translate' needs a deck of Abaqus or CalculiX, "
-                                       "which begins with a keyword such as *NODE");
-      return {};
-    }
-  try
-    {
-      const auto directory = std::filesystem::path(source.file).parent_path();
-      source.text = mesh_file::with_includes(source.text, [&](const std::string &included) {
-        return source.read_file((directory / included).string());
-      });
-      const auto translation =
-        deck::translate(source.text, std::filesystem::path(source.file).filename().string());
-      source.text = translation.text;
-      source.file += " (translated)";
-      return translation.left_out;
-    }
-  catch (const InputError &error)
-    {
-      throw InputError(source.file + ": " + error.what());
-    }
-}
-} // namespace
-
 int run(const Options &options)
 {
   reserve_blas_buffer();
@@ -348,7 +318,7 @@ int run(const Options &options)
     options.output,
     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
     MPI_COMM_WORLD};
-  const auto left_out = translate_deck(source, options.translate);
+  const auto translation = translate_deck(source, options.translate);
   if (options.translate)
     {
       context.out(Verbosity::quiet) << source.text << std::flush;
@@ -356,8 +326,7 @@ int run(const Options &options)
     }
   const scene::Scene scene = scene::read_scene(source);
   context.set_verbosity(scene.output.verbosity);
-  for (const auto &line : left_out)
-    context.warn({"deck", options.file + ": not translated: " + line});
+  report_translation(context, options, translation);
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)
     scene.dimension == 2 ? estimate_in<2>(context, scene, options.ranks)

@@ -24,38 +24,70 @@ DeckBodies::DeckBodies(const mesh_file::DeckMesh &deck) : mesh(deck.mesh)
 {
   for (const auto &element : mesh.elements)
     dim = std::max(dim, mesh_file::dimension(element.shape));
+  is_cell_node.resize(mesh.points.size());
   const auto connected = mesh_file::connected_cells(mesh);
   for (const auto &cells : connected)
-    {
-      Body body;
-      body.name     = body_name(cells.group);
-      body.group    = connected.size() == 1 ? "" : cells.group;
-      body.elements = cells.elements;
-      for (const auto &other : bodies)
-        if (other.name == body.name)
-          body.name += "-" + std::to_string(bodies.size() + 1);
-      std::vector<mesh_file::MeshFile::Element> elements;
-      for (const unsigned int e : cells.elements)
-        elements.push_back(mesh.elements[e]);
-      for (const auto &face : mesh_file::outer_faces(elements))
-        body.outer.emplace(sorted(face), body.outer.size());
-      bodies.push_back(std::move(body));
-    }
+    add_body(cells, connected.size() == 1);
   for (const auto &element : mesh.elements)
     if (mesh_file::dimension(element.shape) + 1 == dim)
       for (const auto &group : element.groups)
         faces_of_set[group].push_back(sorted(element.corners));
 }
 
-/// Return the outer faces of a body that belong to the set.
-std::set<unsigned int> DeckBodies::faces_on(const Body &body, const std::string &set) const
+void DeckBodies::add_body(const mesh_file::ConnectedCells &cells, const bool is_only_one)
 {
+  Body body;
+  body.name     = body_name(cells.group);
+  body.group    = is_only_one ? "" : cells.group;
+  body.elements = cells.elements;
+  for (const auto &other : bodies)
+    if (other.name == body.name)
+      body.name += "-" + std::to_string(bodies.size() + 1);
+  std::vector<mesh_file::MeshFile::Element> elements;
+  for (const unsigned int e : cells.elements)
+    elements.push_back(mesh.elements[e]);
+  body.outer = mesh_file::outer_faces(elements);
+  for (unsigned int face = 0; face < body.outer.size(); ++face)
+    {
+      body.index_of.emplace(sorted(body.outer[face]), face);
+      for (const unsigned int node : nodes_of(body.outer[face]))
+        body.face_at.emplace(node, face);
+    }
+  // All edges of a cell join two of its corners.
+  for (const auto &element : elements)
+    for (const unsigned int node : nodes_of(element.corners))
+      is_cell_node[node] = true;
+  bodies.push_back(std::move(body));
+}
+
+std::vector<unsigned int> DeckBodies::nodes_of(const Corners &face) const
+{
+  std::vector<unsigned int> nodes = face;
+  const auto                add   = [&](const Corners &corners) {
+    const auto middle = mesh.middles.find(corners);
+    if (middle != mesh.middles.end())
+      nodes.push_back(middle->second);
+  };
+  for (std::size_t i = 0; i < face.size() && !mesh.middles.empty(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      add(sorted(Corners{face[i], face[j]}));
+  if (face.size() == 4)
+    add(sorted(face));
+  return nodes;
+}
+
+std::set<unsigned int> DeckBodies::faces_on(const unsigned int b, const std::string &set) const
+{
+  const Body            &body = bodies[b];
   std::set<unsigned int> result;
-  const auto             add = [&](const std::vector<unsigned int> &corners) {
-    const auto found = body.outer.find(corners);
-    if (found != body.outer.end())
+  const auto             add = [&](const Corners &corners) {
+    const auto found = body.index_of.find(corners);
+    if (found != body.index_of.end())
       result.insert(found->second);
   };
+  if (set.empty())
+    for (unsigned int face = 0; face < body.outer.size(); ++face)
+      result.insert(face);
   const auto faces = faces_of_set.find(set);
   if (faces != faces_of_set.end())
     for (const auto &corners : faces->second)
@@ -65,37 +97,66 @@ std::set<unsigned int> DeckBodies::faces_on(const Body &body, const std::string 
     return result;
   for (const auto &face : optional->second.faces)
     add(sorted(face.corners));
-  for (const auto &[corners, face] : body.outer)
-    if (optional->second.has_corners(corners))
+  for (unsigned int face = 0; face < body.outer.size(); ++face)
+    if (optional->second.has_corners(body.outer[face]))
       result.insert(face);
   return result;
 }
 
+std::vector<DeckBodies::Corners> DeckBodies::faces_of(const std::string &set) const
+{
+  std::vector<Corners> result;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (const unsigned int face : faces_on(b, set))
+      result.push_back(bodies[b].outer[face]);
+  return result;
+}
+
+bool DeckBodies::have_same_faces(const std::string &set, const std::string &other) const
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (faces_on(b, set) != faces_on(b, other))
+      return false;
+  return true;
+}
+
+bool DeckBodies::have_common_faces(const std::string &set, const std::string &other) const
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      const auto faces = faces_on(b, set);
+      for (const unsigned int face : faces_on(b, other))
+        if (faces.count(face) > 0)
+          return true;
+    }
+  return false;
+}
+
 bool DeckBodies::use(const std::string &set)
 {
+  if (!used.insert(set).second)
+    return !bodies_of(set).empty();
   // A surface whose nodes are a node set of the same name comes first, because its name is shorter.
   const std::string suffix = " nodes";
   const std::size_t length = set.size() - std::min(set.size(), suffix.size());
-  if (set.substr(length) == suffix && std::all_of(bodies.begin(), bodies.end(), [&](auto &body) {
-        return faces_on(body, set) == faces_on(body, set.substr(0, length));
-      }))
+  if (set.substr(length) == suffix && have_same_faces(set, set.substr(0, length)))
     use(set.substr(0, length));
-  if (used.insert(set).second)
-    for (auto &body : bodies)
-      {
-        const auto faces = faces_on(body, set);
-        if (faces.empty())
-          continue;
-        const auto same = std::find(body.faces.begin(), body.faces.end(), faces);
-        if (same != body.faces.end())
-          body.alias[set] = body.sets[same - body.faces.begin()];
-        else
-          {
-            body.alias[set] = set;
-            body.sets.push_back(set);
-            body.faces.push_back(faces);
-          }
-      }
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      Body      &body  = bodies[b];
+      const auto faces = faces_on(b, set);
+      if (faces.empty())
+        continue;
+      const auto same = std::find(body.faces.begin(), body.faces.end(), faces);
+      if (same != body.faces.end())
+        body.alias[set] = body.sets[same - body.faces.begin()];
+      else
+        {
+          body.alias[set] = set;
+          body.sets.push_back(set);
+          body.faces.push_back(faces);
+        }
+    }
   return !bodies_of(set).empty();
 }
 
@@ -129,41 +190,31 @@ std::string DeckBodies::face_name(const unsigned int b, const unsigned int face)
   return name.empty() ? "free" : name;
 }
 
-std::vector<std::string> DeckBodies::boundaries(const unsigned int b, const std::string &set) const
+std::vector<std::string> DeckBodies::boundaries(const unsigned int            b,
+                                                const std::set<unsigned int> &faces) const
 {
-  const Body &body  = bodies[b];
-  const auto  alias = body.alias.find(set);
-  if (alias == body.alias.end())
-    return {};
-  const auto own = std::find(body.sets.begin(), body.sets.end(), alias->second) - body.sets.begin();
-  std::vector<std::string> result;
-  for (const unsigned int face : body.faces[own])
-    {
-      const auto name = face_name(b, face);
-      if (std::find(result.begin(), result.end(), name) == result.end())
-        result.push_back(name);
-    }
-  std::sort(result.begin(), result.end());
-  return result;
+  std::set<std::string> names;
+  for (const unsigned int face : faces)
+    names.insert(face_name(b, face));
+  return {names.begin(), names.end()};
 }
 
 std::optional<std::string> DeckBodies::boundary_at(const unsigned int b,
                                                    const unsigned int node) const
 {
-  std::vector<unsigned int> around = {node}; // or the corners in whose middle the node lies
-  for (const auto &[corners, middle] : mesh.middles)
-    if (middle == node)
-      around = corners;
-  for (const auto &[corners, face] : bodies[b].outer)
-    if (std::includes(corners.begin(), corners.end(), around.begin(), around.end()))
-      {
-        // Faces of a body without 'Boundary sets' have the names of their groups.
-        for (const auto &[set, faces] : faces_of_set)
-          if (bodies[b].sets.empty() && std::count(faces.begin(), faces.end(), corners) > 0)
-            return set;
-        return face_name(b, face);
-      }
-  return {};
+  const Body &body  = bodies[b];
+  const auto  found = body.face_at.find(node);
+  if (found == body.face_at.end())
+    return {};
+  // Faces of a body without 'Boundary sets' have the names of their groups.
+  if (body.sets.empty())
+    {
+      const auto corners = sorted(body.outer[found->second]);
+      for (const auto &[set, faces] : faces_of_set)
+        if (std::count(faces.begin(), faces.end(), corners) > 0)
+          return set;
+    }
+  return face_name(b, found->second);
 }
 
 std::vector<double> DeckBodies::position(const unsigned int node) const
@@ -174,32 +225,18 @@ std::vector<double> DeckBodies::position(const unsigned int node) const
   return result;
 }
 
-bool DeckBodies::is_second_order() const
-{
-  return std::all_of(mesh.elements.begin(), mesh.elements.end(), [&](const auto &element) {
-    return mesh_file::dimension(element.shape) < dim ||
-           mesh.middles.count(sorted({element.corners[0], element.corners[1]})) > 0;
-  });
-}
-
-unsigned int DeckBodies::nodes_without_face(const std::string &set) const
+std::set<unsigned int> DeckBodies::nodes_without_face(const std::string &set) const
 {
   const auto optional = mesh.optional_boundaries.find(set);
   if (optional == mesh.optional_boundaries.end())
-    return 0;
-  std::set<unsigned int> left = optional->second.nodes, cell_nodes;
-  for (const auto &body : bodies)
-    {
-      const auto faces = faces_on(body, set);
-      for (const auto &[corners, face] : body.outer)
-        if (faces.count(face) > 0)
-          for (const unsigned int corner : corners)
-            left.erase(corner);
-      for (const unsigned int e : body.elements)
-        cell_nodes.insert(mesh.elements[e].corners.begin(), mesh.elements[e].corners.end());
-    }
-  // Middle nodes of quadratic elements follow their corners.
-  return std::count_if(left.begin(), left.end(),
-                       [&](const unsigned int node) { return cell_nodes.count(node) > 0; });
+    return {};
+  std::set<unsigned int> left;
+  for (const unsigned int node : optional->second.nodes)
+    if (is_cell_node[node])
+      left.insert(node);
+  for (const auto &face : faces_of(set))
+    for (const unsigned int node : nodes_of(face))
+      left.erase(node);
+  return left;
 }
 } // namespace snug::deck

@@ -1,5 +1,5 @@
 #include <snug/base/values.h>
-#include <snug/deck/deck_model.h>
+#include <snug/deck/scene_loads.h>
 #include <snug/deck/translation.h>
 
 #include <algorithm>
@@ -7,29 +7,8 @@
 
 namespace snug::deck {
 namespace {
-/// Maximum number of nodes with forces of a deck. Loads of more nodes are those of faces.
-const std::size_t most_point_forces = 20;
-
 using mesh_file::error_at_line;
 using mesh_file::upper_case;
-
-/// Entry of a parameter file, with the lines of the deck from which it comes.
-struct Entry
-{
-  std::string                name, value = {};
-  std::vector<unsigned long> lines = {};
-
-  void add(const std::string &item, const std::string &separator = ", ")
-  {
-    value += (value.empty() ? "" : separator) + item;
-  }
-
-  void add_line(const unsigned long line)
-  {
-    if (std::find(lines.begin(), lines.end(), line) == lines.end())
-      lines.push_back(line);
-  }
-};
 
 /// This class writes a model of a deck as a parameter file.
 class Writer
@@ -38,8 +17,8 @@ public:
   Writer(const DeckModel   &model,
          const DeckBodies  &bodies,
          const std::string &file,
-         LeftOut           &left_out)
-    : model(model), bodies(bodies), file(file), left_out(left_out)
+         const SceneLoads  &loads)
+    : model(model), bodies(bodies), file(file), loads(loads)
   {}
 
   std::string parameters()
@@ -50,8 +29,10 @@ public:
       write("set Model = " + model.model);
     if (model.thickness && bodies.dimension() == 2)
       write("set Thickness = " + to_text(*model.thickness));
-    if (bodies.is_second_order())
+    if (model.degree == 2)
       write("set Element degree = 2");
+    if (!model.units.empty())
+      write("set Units = " + model.units);
     std::vector<std::string> names;
     for (const auto &body : bodies.all())
       names.push_back(body.name);
@@ -60,13 +41,15 @@ public:
     for (const auto *material : used)
       names.push_back(name_of(*material));
     write("set Materials = " + to_text(names));
-    write_gravity();
-    place_point_forces();
+    if (!loads.gravity.empty())
+      write("set Gravity = " + loads.gravity);
+    write_case_names();
     for (const auto *material : used)
       write_material(*material);
     for (unsigned int b = 0; b < bodies.all().size(); ++b)
       write_body(b);
     write_contacts();
+    write_cases();
     return out.str();
   }
 
@@ -74,21 +57,13 @@ private:
   const DeckModel                         &model;
   const DeckBodies                        &bodies;
   const std::string                       &file;
-  LeftOut                                 &left_out;
+  const SceneLoads                        &loads;
   std::ostringstream                       out;
-  std::vector<const DeckModel::Material *> used;         ///< materials of cells
-  std::vector<Entry>                       point_forces; ///< per body
+  std::vector<const DeckModel::Material *> used; ///< materials of cells
 
   void write(const std::string &line) { out << line << '\n'; }
 
-  void write_entry(const Entry &entry)
-  {
-    if (entry.value.empty())
-      return;
-    if (!entry.lines.empty())
-      write("  # " + list_of_lines(entry.lines));
-    write("  set " + entry.name + " = " + entry.value);
-  }
+  void write_entry(const Entry &entry) { deck::write(out, entry); }
 
   /// Return the name of a material without the characters that separate items in lists.
   static std::string name_of(const DeckModel::Material &material)
@@ -134,33 +109,9 @@ private:
     write_entry({"Poisson's ratio", to_text(*material.poissons_ratio)});
     if (material.density > 0.)
       write_entry({"Density", to_text(material.density)});
+    if (material.expansion != 0.)
+      write_entry({"Expansion", to_text(material.expansion)});
     write("end");
-  }
-
-  /// Write the gravity if it is equal in all bodies.
-  void write_gravity()
-  {
-    std::vector<std::vector<double>> of_bodies(bodies.all().size(),
-                                               std::vector<double>(bodies.dimension(), 0.));
-    for (const auto &gravity : model.gravities)
-      for (unsigned int b = 0; b < of_bodies.size(); ++b)
-        {
-          const auto &cells = bodies.all()[b].elements;
-          const auto  n     = std::count_if(cells.begin(), cells.end(),
-                                            [&](const auto e) { return gravity.elements.count(e) > 0; });
-          if (n > 0 && n < static_cast<long>(cells.size()))
-            left_out.add("*DLOAD: gravity of a part of a body", gravity.line);
-          else if (n > 0)
-            for (unsigned int d = 0; d < bodies.dimension(); ++d)
-              of_bodies[b][d] += gravity.acceleration[d];
-        }
-    const bool is_equal = std::all_of(of_bodies.begin(), of_bodies.end(),
-                                      [&](const auto &other) { return other == of_bodies[0]; });
-    for (const auto &gravity : model.gravities)
-      if (!is_equal)
-        left_out.add("*DLOAD: gravity that differs between bodies", gravity.line);
-    if (is_equal && !model.gravities.empty())
-      write("set Gravity = " + to_text(of_bodies[0], ' '));
   }
 
   void write_body(const unsigned int b)
@@ -180,10 +131,8 @@ private:
         names[set] = bodies.boundary_name(b, set);
     write_entry({"Boundary names", to_text(names)});
     write_entry(materials_of(body));
-    write_prescribed(b);
-    write_loads(b, {"Pressure"}, model.pressures);
-    write_loads(b, {"Traction"}, model.tractions);
-    write_entry(point_forces[b]);
+    for (const auto &entry : loads.of_bodies[b])
+      write_entry(entry);
     write("end");
   }
 
@@ -204,90 +153,44 @@ private:
     return {"Materials", names.size() == 1 ? *names.begin() : to_text(of_regions)};
   }
 
-  /// Write supports and prescribed displacements. Of several values the last one counts.
-  void write_prescribed(const unsigned int b)
+  void write_case_names()
   {
-    std::map<std::string, std::map<unsigned int, const DeckModel::PrescribedComponent *>>
-      prescribed;
-    for (const auto &component : model.prescribed)
-      for (const auto &boundary : bodies.boundaries(b, component.set))
-        prescribed[boundary][component.component] = &component;
-    Entry supports{"Supports"}, displacements{"Displacement"};
-    for (const auto &[boundary, of_components] : prescribed)
-      {
-        std::string components;
-        for (const auto &[c, of] : of_components)
-          if (of->value == 0.)
-            {
-              components += "xyz"[c];
-              supports.add_line(of->line);
-            }
-          else
-            {
-              displacements.add(boundary + ": " + "xyz"[c] + " = " + to_text(of->value));
-              displacements.add_line(of->line);
-            }
-        if (!components.empty())
-          supports.add(boundary + ": " + components);
-      }
-    write_entry(supports);
-    write_entry(displacements);
+    std::vector<std::string> names;
+    for (const auto &load_case : loads.cases)
+      names.push_back(load_case.name);
+    if (!names.empty())
+      write("set Load cases = " + to_text(names));
   }
 
-  /// Write pressures or tractions. Several ones on a boundary are added.
-  void write_loads(const unsigned int b, Entry entry, const std::vector<DeckModel::FaceLoad> &loads)
+  void write_cases()
   {
-    std::map<std::string, std::vector<double>> sums;
-    for (const auto &load : loads)
-      for (const auto &boundary : bodies.boundaries(b, load.set))
-        {
-          auto &sum =
-            sums.emplace(boundary, std::vector<double>(load.components.size(), 0.)).first->second;
-          for (std::size_t i = 0; i < sum.size(); ++i)
-            sum[i] += load.components[i];
-          entry.add_line(load.line);
-        }
-    for (const auto &[boundary, sum] : sums)
-      entry.add(boundary + ": " + to_text(sum, ' '));
-    write_entry(entry);
-  }
-
-  /// Assign the forces at nodes to boundaries of the bodies.
-  void place_point_forces()
-  {
-    point_forces.resize(bodies.all().size(), {"Point force"});
-    const bool              are_many = model.point_forces.size() > most_point_forces;
-    std::set<unsigned long> without_boundary, of_many;
-    for (const auto &[node, force] : model.point_forces)
+    for (const auto &load_case : loads.cases)
       {
-        std::optional<std::string> boundary;
-        for (unsigned int b = 0; b < point_forces.size() && !boundary && !are_many; ++b)
-          if ((boundary = bodies.boundary_at(b, node)))
-            {
-              point_forces[b].add(*boundary + ": " + to_text(force.components, ' ') + " at " +
-                                  to_text(bodies.position(node), ' '));
-              for (const auto line : force.lines)
-                point_forces[b].add_line(line);
-            }
-        if (!boundary)
-          (are_many ? of_many : without_boundary).insert(force.lines.begin(), force.lines.end());
+        write("\nsubsection Load case " + load_case.name);
+        if (load_case.is_load_step)
+          write("  set Load step = true");
+        for (const auto &entry : load_case.entries)
+          write_entry(entry);
+        write("end");
       }
-    for (const auto line : without_boundary)
-      left_out.add("*CLOAD of nodes on no boundary of a body", line);
-    for (const auto line : of_many)
-      left_out.add("*CLOAD of more than " + std::to_string(most_point_forces) +
-                     " nodes; use *DSLOAD",
-                   line);
   }
 
   /// Return the side of a contact: "body.a + body.a and b".
-  std::string side(const std::string &set) const
+  std::string side(const unsigned int b, const std::set<unsigned int> &faces) const
   {
-    const unsigned int b = bodies.bodies_of(set).front();
-    Entry              faces{""};
-    for (const auto &boundary : bodies.boundaries(b, set))
-      faces.add(bodies.all()[b].name + "." + boundary, " + ");
-    return faces.value;
+    Entry boundaries{""};
+    for (const auto &boundary : bodies.boundaries(b, faces))
+      boundaries.add(bodies.all()[b].name + "." + boundary, " + ");
+    return boundaries.value;
+  }
+
+  /// Return the pair of a contact: "punch.bottom: base.top".
+  std::string sides(const DeckModel::Contact &of) const
+  {
+    if (of.is_general)
+      return side(of.slave_body, of.slave_faces) + ": " + side(of.master_body, of.master_faces);
+    return side(of.slave_body, bodies.faces_on(of.slave_body, of.slave)) + ": " +
+           side(of.master_body, bodies.faces_on(of.master_body, of.master));
   }
 
   void write_contacts()
@@ -297,7 +200,7 @@ private:
     Entry pairs{"Pairs"};
     for (const auto &contact : model.contacts)
       {
-        pairs.add(side(contact.slave) + ": " + side(contact.master));
+        pairs.add(sides(contact));
         pairs.add_line(contact.line);
       }
     write("\nsubsection Contact");
@@ -305,14 +208,17 @@ private:
     write("end");
     for (const auto &contact : model.contacts)
       {
-        write("\nsubsection Pair " + side(contact.slave) + ": " + side(contact.master));
-        write_entry({"Slave", "first"});
-        const auto friction = model.friction.find(contact.interaction);
-        if (friction != model.friction.end() && friction->second > 0.)
-          {
-            write_entry({"Friction", "Coulomb"});
-            write_entry({"Friction coefficient", to_text(friction->second)});
-          }
+        write("\nsubsection Pair " + sides(contact));
+        write_entry(contact.is_general ? Entry{"Search distance", to_text(contact.reach)}
+                                       : Entry{"Slave", "first"});
+        if (contact.gap != 0.)
+          write_entry({"Gap", to_text(contact.gap)});
+        for (const auto &interaction : model.interactions)
+          if (interaction.name == contact.interaction && interaction.friction > 0.)
+            {
+              write_entry({"Friction", "Coulomb"});
+              write_entry({"Friction coefficient", to_text(interaction.friction)});
+            }
         write("end");
       }
   }
@@ -329,16 +235,22 @@ Translation translate(const std::string &text, const std::string &file)
 {
   const auto  deck = mesh_file::read_deck(text);
   DeckBodies  bodies(deck);
-  LeftOut     left_out;
-  const auto  model = read_model(mesh_file::DeckText(text), deck, bodies, left_out);
-  Translation result;
-  const auto  parameters = Writer(model, bodies, file, left_out).parameters();
-  result.left_out        = left_out.lines();
-  result.text            = "# Translation of " + file + " by 'snug --translate'.\n";
-  if (!result.left_out.empty())
-    result.text += "# These keywords of the deck are not part of this file:\n";
-  for (const auto &line : result.left_out)
+  Remarks     remarks;
+  const auto  model      = read_model(mesh_file::DeckText(text), deck, bodies, remarks);
+  const auto  loads      = scene_loads(model, bodies, remarks);
+  const auto  parameters = Writer(model, bodies, file, loads).parameters();
+  Translation result{"", remarks.not_needed(), remarks.replaced(), remarks.lacking()};
+  result.text = "# Translation of " + file + " by 'snug --translate'.\n";
+  if (!result.lacking.empty())
+    result.text += "# These parts of the model are not in this file:\n";
+  for (const auto &part : result.lacking)
+    result.text += "#   " + part.text + '\n';
+  if (!result.replaced.empty())
+    result.text += "# This file has, instead of the deck:\n";
+  for (const auto &line : result.replaced)
     result.text += "#   " + line + '\n';
+  if (!result.not_needed.empty())
+    result.text += "# Not needed: " + result.not_needed + '\n';
   result.text += '\n' + parameters;
   return result;
 }

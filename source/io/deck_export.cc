@@ -202,6 +202,8 @@ private:
     std::string by_sets;
     bool        is_simple = true;
     for (const auto &body : scene.bodies)
+      is_simple = is_simple && body.point_supports.empty();
+    for (const auto &body : scene.bodies)
       for (const auto &[boundary, words] : body.supports)
         for (const unsigned int c : scene::component_list(words, dim))
           {

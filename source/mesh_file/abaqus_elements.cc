@@ -1,6 +1,7 @@
 #include <snug/mesh_file/mesh_formats.h>
 #include <snug/mesh_file/mesh_text.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace snug::mesh_file {
@@ -41,4 +42,12 @@ ElementType abaqus_type(const std::string &name, unsigned long line)
   throw error_at_line(line, "element type '" + name + "' is not supported");
 }
 
+bool is_point_element(const std::string &name)
+{
+  static const std::vector<std::string> families = {"SPRING", "MASS",  "ROTARY", "DASHPOT",
+                                                    "CONN",   "JOINT", "GAP",    "DCOUP",
+                                                    "B2",     "B3",    "PIPE",   "FRAME"};
+  return std::any_of(families.begin(), families.end(),
+                     [&](const auto &family) { return name.rfind(family, 0) == 0; });
+}
 } // namespace snug::mesh_file

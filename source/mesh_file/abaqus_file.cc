@@ -1,3 +1,4 @@
+#include <snug/mesh_file/deck_parts.h>
 #include <snug/mesh_file/deck_sets.h>
 #include <snug/mesh_file/deck_text.h>
 #include <snug/mesh_file/element_split.h>
@@ -15,18 +16,18 @@ using Point = dealii::Point<3>;
 class AbaqusReader
 {
 public:
-  explicit AbaqusReader(const std::string &text) : deck(text) {}
+  explicit AbaqusReader(const std::string &text) : deck(text), parts(deck) {}
 
   DeckMesh read()
   {
-    collect_names();
     const auto &keywords = deck.keywords();
     sets.scopes[""];
+    sets.qualified_names = parts.qualified_names;
     for (std::size_t k = 0; k < keywords.size(); ++k)
       if (keywords[k].name == "INSTANCE")
         k = read_instance(k);
-      else if (keywords[k].name == "PART" && has_instances)
-        k = end_of(k, "ENDPART");
+      else if (keywords[k].name == "PART" && parts.has_instances)
+        k = parts.end_of(k);
       else if (keywords[k].name == "PART" && ++n_parts > 1)
         throw keyword_error(keywords[k],
                             "the file has more than one part, but no *INSTANCE that places them");
@@ -34,60 +35,17 @@ public:
         read_keyword(keywords[k], "");
     add_node_sets();
     name_connected_cells(mesh);
-    return {std::move(mesh), std::move(sets)};
+    return {std::move(mesh), std::move(sets), std::move(point_elements)};
   }
 
 private:
-  DeckText                           deck;
-  unsigned long                      at            = 0; ///< current line
-  bool                               has_instances = false;
-  unsigned int                       n_parts       = 0;
-  MeshFile                           mesh;
-  DeckSets                           sets;
-  std::map<std::string, std::size_t> parts; ///< name -> index of the keyword *PART
-  /// line and words of a keyword -> name of the optional boundary
-  std::map<std::pair<unsigned long, std::string>, std::string> boundary_of_words;
-
-  /// Return the index of the keyword @p end that closes keyword @p k.
-  std::size_t end_of(const std::size_t k, const std::string &end) const
-  {
-    const auto &keywords = deck.keywords();
-    for (std::size_t e = k + 1; e < keywords.size(); ++e)
-      if (keywords[e].name == end)
-        return e;
-    throw keyword_error(keywords[k], keywords[k].title + " has no *END");
-  }
-
-  /// Collect the parts, and the names of sets that occur in the assembly or in several instances.
-  void collect_names()
-  {
-    const auto                         &keywords = deck.keywords();
-    std::map<std::string, unsigned int> n_instances; // by name of a set of a part
-    has_instances = std::any_of(keywords.begin(), keywords.end(),
-                                [](const auto &keyword) { return keyword.name == "INSTANCE"; });
-    for (std::size_t k = 0; has_instances && k < keywords.size(); ++k)
-      {
-        const auto &keyword = keywords[k];
-        std::size_t end     = k;
-        if (keyword.name == "PART" || keyword.name == "INSTANCE")
-          end = end_of(k, "END" + keyword.name);
-        if (keyword.name == "PART")
-          parts[upper_case(keyword.option("NAME"))] = k;
-        std::set<std::string> names;
-        const auto            part = parts.find(upper_case(keyword.option("PART")));
-        if (keyword.name == "INSTANCE" && part != parts.end())
-          for (std::size_t p = part->second; p < end_of(part->second, "ENDPART"); ++p)
-            names.insert(defined_set(keywords[p]));
-        for (std::size_t own = k; own < end && keyword.name == "INSTANCE"; ++own)
-          names.insert(defined_set(keywords[own]));
-        for (const auto &name : names)
-          if (++n_instances[name] > 1)
-            sets.qualified_names.insert(name);
-        if (end == k)
-          sets.qualified_names.insert(defined_set(keyword));
-        k = end;
-      }
-  }
+  DeckText                             deck;
+  DeckParts                            parts;
+  unsigned long                        at      = 0; ///< current line
+  unsigned int                         n_parts = 0;
+  MeshFile                             mesh;
+  DeckSets                             sets;
+  std::map<unsigned int, PointElement> point_elements;
 
   /// Read the instance that keyword @p k begins, and return the index of its last keyword.
   std::size_t read_instance(const std::size_t k)
@@ -95,8 +53,8 @@ private:
     const auto       &keywords = deck.keywords();
     const auto       &keyword  = keywords[k];
     const std::string name = keyword.option("NAME"), prefix = upper_case(name) + ".";
-    const auto        part = parts.find(upper_case(keyword.option("PART")));
-    if (part == parts.end())
+    const auto        part = parts.keyword_of.find(upper_case(keyword.option("PART")));
+    if (part == parts.keyword_of.end())
       throw keyword_error(keyword, "instance '" + name + "' has the part '" +
                                      keyword.option("PART") + "', which does not exist");
     if (name.empty() || sets.scopes.count(prefix) > 0)
@@ -104,9 +62,9 @@ private:
     sets.scopes[prefix].instance = name;
     sets.scopes[prefix].part     = part->first;
     sets.scopes[prefix].place    = instance_place(deck, keyword);
-    for (std::size_t p = part->second + 1; p < end_of(part->second, "ENDPART"); ++p)
+    for (std::size_t p = part->second + 1; p < parts.end_of(part->second); ++p)
       read_keyword(keywords[p], prefix);
-    const std::size_t end = end_of(k, "ENDINSTANCE");
+    const std::size_t end = parts.end_of(k);
     for (std::size_t own = k + 1; own < end; ++own)
       read_keyword(keywords[own], prefix);
     return end;
@@ -172,7 +130,10 @@ private:
   /// Read elements: their numbers and nodes. Elements such as C3D20 continue on further lines.
   void read_elements(const Keyword &keyword, const std::string &prefix)
   {
-    const ElementType type = abaqus_type(upper_case(keyword.option("TYPE")), keyword.line);
+    const std::string name = upper_case(keyword.option("TYPE"));
+    if (is_point_element(name))
+      return read_point_elements(keyword, prefix, name);
+    const ElementType type = abaqus_type(name, keyword.line);
     Words             pending;
     deck.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       at = line;
@@ -186,18 +147,47 @@ private:
       throw error_at_line(at, "element " + pending[0] + " is incomplete");
   }
 
+  /// Read elements with one line each: their numbers and nodes.
+  void
+  read_point_elements(const Keyword &keyword, const std::string &prefix, const std::string &type)
+  {
+    Scope &scope = sets.scopes.at(prefix);
+    deck.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      at                 = line;
+      const auto   name  = "element " + words[0];
+      const auto   index = new_element(words[0], prefix);
+      PointElement element{type, {}, keyword.line};
+      for (std::size_t i = 1; i < words.size(); ++i)
+        if (!words[i].empty())
+          element.nodes.push_back(scope.nodes.index(to_whole(words[i], at), name, at));
+      if (element.nodes.empty())
+        throw error_at_line(at, name + " has no node");
+      mesh.elements.push_back(
+        {ElementShape::vertex, {element.nodes[0]}, {}, to_whole(words[0], at), at});
+      point_elements.emplace(index, std::move(element));
+      if (keyword.has("ELSET"))
+        add_to_set(keyword.option("ELSET"), prefix, index);
+    });
+  }
+
+  /// Return the index of the next element, whose number in the file is @p number.
+  unsigned int new_element(const std::string &number, const std::string &prefix)
+  {
+    const unsigned int index = mesh.elements.size();
+    if (!sets.scopes.at(prefix).elements.emplace(to_whole(number, at), index).second)
+      throw error_at_line(at, "element " + number + " occurs twice");
+    return index;
+  }
+
   void read_element(const Words       &words,
                     const ElementType &type,
                     const Keyword     &keyword,
                     const std::string &prefix)
   {
-    Scope             &scope  = sets.scopes.at(prefix);
-    const auto         number = to_whole(words[0], at);
-    const std::string  name   = "element " + words[0];
-    const unsigned int index  = mesh.elements.size();
-    if (!scope.elements.emplace(number, index).second)
-      throw error_at_line(at, name + " occurs twice");
-    MeshFile::Element         element{type.shape, {}, {}, number, at};
+    Scope                    &scope = sets.scopes.at(prefix);
+    const std::string         name  = "element " + words[0];
+    const unsigned int        index = new_element(words[0], prefix);
+    MeshFile::Element         element{type.shape, {}, {}, to_whole(words[0], at), at};
     std::vector<unsigned int> nodes;
     for (unsigned int i = 1; i <= type.n_nodes; ++i)
       nodes.push_back(scope.nodes.index(to_whole(words[i], at), name, at));
@@ -305,15 +295,20 @@ private:
       }
   }
 
-  /// Return the optional boundary of the lines of a keyword that have the same @p words. It is
-  /// named by the first of these lines, "Dload-17".
-  MeshFile::OptionalBoundary &boundary_of(const Keyword &keyword, const std::string &words)
+  /// Return the optional boundary of the lines of a keyword that have the same data as @p words. It
+  /// is named by the first of these lines, "Dload-17"; lines of several files may have one number.
+  MeshFile::OptionalBoundary &boundary_of(const Keyword &keyword, const Words &words)
   {
-    const auto name   = boundary_of_words.emplace(std::make_pair(keyword.line, words),
-                                                  (keyword.name == "DLOAD" ? "Dload-" : "Boundary-") +
-                                                    std::to_string(at));
-    sets.of_lines[at] = name.first->second;
-    return mesh.optional_boundaries[name.first->second];
+    auto &name = sets.of_lines[DeckSets::group(keyword, words)];
+    if (name.empty())
+      {
+        const std::string first =
+          (keyword.name == "DLOAD" ? "Dload-" : "Boundary-") + std::to_string(at);
+        name = first;
+        for (unsigned int n = 2; mesh.optional_boundaries.count(name) > 0; ++n)
+          name = first + "-" + std::to_string(n);
+      }
+    return mesh.optional_boundaries[name];
   }
 
   /// Read a line "element or set, P3, pressure" of *DLOAD.
@@ -321,7 +316,7 @@ private:
   {
     if (words.size() < 3 || words[1].size() != 2 || upper_case(words[1])[0] != 'P')
       return;
-    auto &boundary = boundary_of(keyword, words[2]);
+    auto &boundary = boundary_of(keyword, words);
     for (const unsigned int element : sets.elements(words[0], prefix, keyword.title, at))
       {
         const auto &cell = mesh.elements[element];
@@ -334,11 +329,8 @@ private:
   {
     if (!sets.find(sets.of_nodes, words[0], prefix).empty())
       return;
-    std::string rest;
-    for (std::size_t i = 1; i < words.size(); ++i)
-      rest += words[i] + ',';
     for (const unsigned int node : sets.nodes(words[0], prefix, keyword.title, at))
-      boundary_of(keyword, rest).nodes.insert(node);
+      boundary_of(keyword, words).nodes.insert(node);
   }
 
   /// Read a section. Elements of an internal set of Abaqus/CAE are in the group of their material.

@@ -85,6 +85,15 @@ std::string DeckSets::find(const std::map<std::string, std::set<unsigned int>> &
   return "";
 }
 
+std::pair<std::size_t, std::string> DeckSets::group(const Keyword                  &keyword,
+                                                    const std::vector<std::string> &words)
+{
+  std::string data;
+  for (std::size_t i = keyword.name == "DLOAD" ? 2 : 1; i < words.size(); ++i)
+    data += words[i] + ',';
+  return {keyword.begin, data};
+}
+
 std::string DeckSets::boundary_of_nodes(const std::string &key) const
 {
   const auto &name = spelling.at(key);

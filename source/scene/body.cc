@@ -93,6 +93,25 @@ void check_supports(const SectionCheck &section, const Body &body)
                             error.what() + std::string("; ") + component_names(section.dimension));
       }
 }
+
+void check_point_supports(const SectionCheck &section, const Body &body)
+{
+  const std::string held = to_text(body.point_supports);
+  for (const auto &[boundary, text] : body.point_supports)
+    {
+      require_boundary(section, "Point supports", held, body, boundary);
+      try
+        {
+          point_hold(text, section.dimension);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw section.error("Point supports", held,
+                              "support of '" + boundary + "': " + quotable(error.what()));
+        }
+    }
+}
+
 void check_springs(const SectionCheck &section, const Body &body)
 {
   std::set<std::pair<std::string, unsigned int>> known;
@@ -169,6 +188,12 @@ void Body::declare(Entries &entries)
     "'normal' is the component along the outward normal of a flat, oblique or curved face, "
     "for symmetry planes and rollers: 'side: normal, end: normal z'.");
   entries.add(
+    "Point supports", point_supports, allowed("a list 'boundary: components at x y z, ...'"),
+    "The displacement components of nodes at places of the reference geometry, in all load cases: "
+    "'bottom: xy at 0 0 0, bottom: z = -0.01 at 1 0 0'. The stress there is infinite in the limit "
+    "of "
+    "fine meshes. Units: length.");
+  entries.add(
     "Springs", springs, allowed("a list 'boundary: components = formula, ...'"),
     "The springs between boundaries and the ground, with the components as in 'Supports' and "
     "the stiffness per area as a formula of x, y, z in the reference geometry: 'bottom: "
@@ -202,6 +227,7 @@ void check_body(const Scene &scene, const SectionCheck &section, const Body &bod
                   "Formulation", to_text(body.formulation),
                   "must be standard for Model = plane stress, which does not lock");
   check_supports(section, body);
+  check_point_supports(section, body);
   check_springs(section, body);
 }
 

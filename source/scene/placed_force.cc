@@ -1,5 +1,6 @@
 #include <snug/base/values.h>
 #include <snug/scene/placed_force.h>
+#include <snug/scene/scene.h>
 
 #include <cmath>
 #include <limits>
@@ -76,6 +77,26 @@ PlacedForce placed_force(const std::string &text, const unsigned int dimension)
                         : result.to) = vector_from(part, dimension);
   if (result.force.empty())
     throw std::invalid_argument("the force is missing");
+  return result;
+}
+
+PointHold point_hold(const std::string &text, const unsigned int dimension)
+{
+  const auto parts          = parts_of(text, {"at"});
+  const auto at             = parts.find("at");
+  const auto [words, value] = split_displacement(parts.at(""));
+  PointHold result;
+  if (at == parts.end())
+    throw std::invalid_argument("the point is missing");
+  result.at         = vector_from(at->second, dimension);
+  result.components = component_list(words, dimension);
+  if (!value.empty())
+    from_text(value, result.value);
+  for (const unsigned int c : result.components)
+    if (c == dimension)
+      throw std::invalid_argument("a point has no normal");
+  if (result.components.empty())
+    throw std::invalid_argument("the components are missing");
   return result;
 }
 } // namespace snug::scene

@@ -80,7 +80,8 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
     check_radii(mesh, model.body_names);
   throw_collectively(context.communicator(), [&]() { check_reference(*this); });
   held = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
-                                                               model.load_cases.size(), positions);
+                                                               model.load_cases.size(), positions,
+                                                               model.point_supports);
   make_positions();
   const auto x          = surface.gather(positions);
   const auto directions = held->directions(surface, positions);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace snug::supports {
@@ -15,15 +16,22 @@ const double dependent_sine = 1e-6;
 /// Prescribed values agree if they differ by less than this fraction of the maximum value.
 const double same_value = 1e-10;
 
+/// A node is at the place of a point support if its distance is below this fraction of the
+/// boundary.
+const double same_place = 1e-3;
+
 using Boundary = std::pair<unsigned int, unsigned int>;
 
 /// Return the boundaries with supports; in axisymmetric models all boundaries, because each may
 /// contain nodes on the axis.
 template <int dim>
-std::vector<Boundary> held_boundaries(const mesh::BodyMesh<dim>       &mesh,
-                                      const std::vector<Support<dim>> &supports)
+std::vector<Boundary> held_boundaries(const mesh::BodyMesh<dim>            &mesh,
+                                      const std::vector<Support<dim>>      &supports,
+                                      const std::vector<PointSupport<dim>> &points)
 {
   std::vector<Boundary> boundaries;
+  for (const auto &point : points)
+    boundaries.emplace_back(point.body, point.boundary);
   for (const auto &support : supports)
     boundaries.emplace_back(support.body, support.boundary);
   if (mesh.idealization().is_axisymmetric())
@@ -58,14 +66,15 @@ InputError conflict(const dealii::Tensor<1, dim>         &x,
 } // namespace
 
 template <int dim>
-DirichletConstraints<dim>::DirichletConstraints(const mesh::BodyMesh<dim>       &mesh,
-                                                const std::vector<Support<dim>> &supports,
-                                                unsigned int                     n_load_cases,
-                                                const Field                     &positions)
+DirichletConstraints<dim>::DirichletConstraints(const mesh::BodyMesh<dim>            &mesh,
+                                                const std::vector<Support<dim>>      &supports,
+                                                unsigned int                          n_load_cases,
+                                                const Field                          &positions,
+                                                const std::vector<PointSupport<dim>> &points)
   : mesh(mesh)
   , shape(mesh.degree())
   , n_load_cases(n_load_cases)
-  , surface(mesh, held_boundaries(mesh, supports))
+  , surface(mesh, held_boundaries(mesh, supports, points))
 {
   const auto            x = surface.gather(positions);
   std::vector<Boundary> normal_boundaries;
@@ -77,30 +86,36 @@ DirichletConstraints<dim>::DirichletConstraints(const mesh::BodyMesh<dim>       
   for (unsigned int side = 0; side < sides.size(); ++side)
     for (const unsigned int face : sides[side])
       side_of_face[face] = side;
-  collect_holds(supports, surface.gather(mesh.reference_positions()));
+  const auto reference = surface.gather(mesh.reference_positions());
+  Nodes      found;
+  collect_holds(supports, reference, found);
+  collect_points(points, reference, found);
+  store(found);
   leave_out_dependent(x);
 }
 
 template <int dim>
-void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &supports,
-                                              const SurfaceField              &reference)
+void DirichletConstraints<dim>::add_hold(Nodes             &found,
+                                         const unsigned int node,
+                                         const Hold        &hold) const
 {
-  std::map<unsigned int, Node> found;
-  const auto                   add = [&](unsigned int node, const Hold &hold) {
-    // A hanging node is held as far as its masters are, so a row of its own would repeat their
-    // rows.
-    if (!surface.masters(node).empty())
-      return;
-    auto &holds = found[node].holds;
-    // A node is on several faces of a boundary and of a side, but has one constraint for all of
-    // them.
-    const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
-      return other.name == hold.name && other.component == hold.component &&
-             other.side == hold.side;
-    });
-    if (!known)
-      holds.push_back(hold);
-  };
+  // A hanging node is held as far as its masters are, so a row of its own would repeat their rows.
+  if (!surface.masters(node).empty())
+    return;
+  auto &holds = found[node].holds;
+  // A node is on several faces of a boundary and of a side, but has one constraint for all of them.
+  const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
+    return other.name == hold.name && other.component == hold.component && other.side == hold.side;
+  });
+  if (!known)
+    holds.push_back(hold);
+}
+
+template <int dim>
+void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &supports,
+                                              const SurfaceField              &reference,
+                                              Nodes                           &found) const
+{
   const bool axis = mesh.idealization().is_axisymmetric();
   for (unsigned int f = 0; f < surface.faces().size(); ++f)
     {
@@ -109,7 +124,8 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
         // The comparison with zero is exact: meshes of revolution have exact zeros, and any other
         // radius is off the axis.
         if (axis && reference[node][0] == 0.)
-          add(node, {"the axis of rotation", "", 0, 0, std::vector<double>(n_load_cases)});
+          add_hold(found, node,
+                   {"the axis of rotation", "", 0, 0, std::vector<double>(n_load_cases)});
     }
   for (const auto &support : supports)
     for (unsigned int f = 0; f < surface.faces().size(); ++f)
@@ -129,10 +145,52 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
             for (unsigned int c = 0; c < support.values.size(); ++c)
               if (support.values[c])
                 hold.values[c] = support.values[c](dealii::Point<dim>(reference[node]));
-            add(node, hold);
+            add_hold(found, node, hold);
           }
       }
-  for (auto &entry : found)
+}
+
+/// Hold the node at each place.
+template <int dim>
+void DirichletConstraints<dim>::collect_points(const std::vector<PointSupport<dim>> &points,
+                                               const SurfaceField                   &reference,
+                                               Nodes                                &found) const
+{
+  std::map<Boundary, std::set<unsigned int>> nodes;
+  for (const auto &face : surface.faces())
+    nodes[{face.body, face.boundary}].insert(face.nodes.begin(), face.nodes.end());
+  for (const auto &point : points)
+    {
+      const auto &candidates = nodes[{point.body, point.boundary}];
+      const auto  distance   = [&](const unsigned int node) {
+        return (reference[node] - point.place).norm();
+      };
+      const auto nearest =
+        std::min_element(candidates.begin(), candidates.end(),
+                         [&](const auto a, const auto b) { return distance(a) < distance(b); });
+      double size = 0.;
+      for (const unsigned int node : candidates)
+        size = std::max(size, distance(node));
+      if (nearest == candidates.end() || distance(*nearest) > same_place * size)
+        {
+          std::ostringstream text;
+          text << point.name << ": there is no node of '" << point.face << "' at (" << point.place
+               << ")";
+          if (nearest != candidates.end())
+            text << "; the nearest one is at (" << reference[*nearest] << ")";
+          throw InputError(text.str());
+        }
+      add_hold(found, *nearest,
+               {point.name, point.face, point.component, 0,
+                std::vector<double>(n_load_cases, point.value),
+                std::make_pair(point.body, point.boundary)});
+    }
+}
+
+template <int dim>
+void DirichletConstraints<dim>::store(const Nodes &found)
+{
+  for (const auto &entry : found)
     {
       nodes.push_back(entry.second);
       nodes.back().surface_node = entry.first;
@@ -305,81 +363,6 @@ DirichletConstraints<dim>::frame_derivatives(const Field &positions, const Field
         result[i] = Orthonormalised<dim>(given_frame(nodes[i], n)).derivative(derivative);
       }
   return result;
-}
-
-template <int dim>
-void DirichletConstraints<dim>::add_energy_gradient(
-  const Field                            &positions,
-  const Field                            &displacement,
-  const std::vector<std::vector<double>> &reactions,
-  Field                                  &gradient) const
-{
-  if (!follow_positions())
-    return;
-  const auto                x = surface.gather(positions);
-  const auto                u = surface.gather(displacement);
-  const auto                n = normals(x);
-  std::vector<SurfaceField> normal_gradients(sides.size(), SurfaceField(surface.n_nodes()));
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    if (nodes[i].follows)
-      {
-        const Node &node = nodes[i];
-        // Reactions belong to orthonormal directions, but normals are among the given directions.
-        // Add the derivative of d_j . u - v_j with constant v_j, where d_j are the normals.
-        const auto multipliers =
-          Orthonormalised<dim>(given_frame(node, n)).given_multipliers(reactions[i]);
-        for (unsigned int j = 0; j < node.holds.size(); ++j)
-          if (node.holds[j].component == Support<dim>::normal)
-            normal_gradients[node.holds[j].side][node.surface_node] +=
-              multipliers[j] * u[node.surface_node];
-      }
-  SurfaceField at_surface(surface.n_points());
-  for (unsigned int side = 0; side < sides.size(); ++side)
-    n[side].add_transpose(normal_gradients[side], at_surface);
-  surface.add_owned(at_surface, gradient);
-}
-
-/// Convert the reactions, which belong to orthonormal directions, to the directions of the
-/// supports.
-template <int dim>
-std::vector<typename DirichletConstraints<dim>::Force>
-DirichletConstraints<dim>::forces(const Field                            &positions,
-                                  const std::vector<std::vector<double>> &reactions) const
-{
-  const auto         x      = surface.gather(positions);
-  const auto         n      = normals(x);
-  const auto         bodies = surface.bodies_of_points();
-  std::vector<Force> result;
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    {
-      const auto frame       = given_frame(nodes[i], n);
-      const auto multipliers = Orthonormalised<dim>(frame).given_multipliers(reactions[i]);
-      for (unsigned int j = 0; j < multipliers.size(); ++j)
-        // From K u + B'lambda = f, a multiplier acts against its direction.
-        result.push_back({nodes[i].holds[j].face, bodies[nodes[i].surface_node],
-                          x[nodes[i].surface_node], -multipliers[j] * frame.directions[j]});
-    }
-  return result;
-}
-
-template <int dim>
-dealii::Tensor<2, dim> DirichletConstraints<dim>::reaction_directions(
-  const unsigned int                           global_node,
-  const std::pair<unsigned int, unsigned int> &boundary) const
-{
-  const unsigned int held_node = find(global_node);
-  if (held_node == n_nodes())
-    return {};
-  const std::vector<Hold> &holds = nodes[held_node].holds;
-  const auto has_normal = [&](const Hold &hold) { return hold.component == Support<dim>::normal; };
-  const auto first_normal = std::find_if(holds.begin(), holds.end(), has_normal);
-  dealii::Tensor<2, dim> of_axes, of_others;
-  for (const Hold &hold : holds)
-    if (!has_normal(hold))
-      (hold.boundary == boundary ? of_axes : of_others)[hold.component][hold.component] = 1.;
-  if (first_normal != holds.end() && first_normal->boundary == boundary)
-    return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
-  return of_axes;
 }
 
 template class DirichletConstraints<2>;

@@ -53,14 +53,32 @@ EXACT = ["Solver/Relative tolerance=1e-12", "Accuracy/Estimate=none"]
 # Forces of the deck of check_forces(), which has more of them at nodes that are held
 FORCES = "Body upper/Point force=top: 0 0 -7 at 2 2 2, top: 0 0 2 at 2 0 2, top: 0 0 -1 at 0 0 2"
 # What the decks contain beyond the parameter file, with the lines
-LEFT_OUT = {
-    "cae-blocks.inp": ["*FRICTION: the option SLIPTOLERANCE (line 90)",
-                       "*CONTACT PAIR: the option ADJUST (line 103)",
+REMARKS = {
+    "cae-blocks.inp": ["# Not needed: *FRICTION: SLIPTOLERANCE (line 90)",
                        "*OUTPUT (lines 126 and 127)"],
-    "ccx-blocks.inp": ["*SURFACE BEHAVIOR LINEAR: contact is hard (line 66)",
-                       "*STEP: the option NLGEOM (line 83)", "*NODE FILE (line 91)"],
-    "prepomax-blocks.inp": ["are all in the set; supports hold whole faces (line 136)",
+    "ccx-blocks.inp": ["hard contact instead of *SURFACE BEHAVIOR LINEAR (line 66)",
+                       "small displacements instead of NLGEOM (line 83)",
+                       "# Not needed: *NODE FILE (line 91)"],
+    "prepomax-blocks.inp": ["point supports for nodes of *BOUNDARY", "(line 136)",
                             "*NODE FILE (line 148)"]}
+# The node that the deck of PrePoMax holds beside the faces
+HELD = "Body upper/Point supports=bottom: x at 0 0 1"
+# Parts of the model without a translation, in place of '*NODE FILE' or of the contact pair of
+# ccx-blocks.inp, with the kinds and the words of the list
+PAIR = "*CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE TO SURFACE\nSSLAVE, SMASTER"
+LACKING = [
+    ("*NODE FILE\nU", "*DLOAD\nEALL, CENTRIF, 1., 0., 0., 0., 0., 0., 1.", "dload", ["'CENTRIF'"]),
+    ("*NODE FILE\nU", "*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nELOW", "model change", ["(line 91)"]),
+    ("*NODE FILE\nU", "*END STEP\n*STEP\n*FREQUENCY\n3", "frequency", ["*FREQUENCY (line 93)"]),
+    ("*NODE FILE\nU", "*BOUNDARY\nNFIX, 11, 11, 5.", "boundary", ["other than 1 to 6"]),
+    ("*NODE FILE\nU", "*CLOADS\nNFIX, 3, 5.", "cloads", ["*CLOADS (line 91)"]),
+    (PAIR, "*TIE, NAME=T\nSSLAVE, SMASTER", "tie", ["*TIE (line "]),
+    (PAIR, PAIR.replace("SURFACE TO SURFACE", "TIED"), "contact pair", ["of type TIED"]),
+    (PAIR, PAIR + "\n*EQUATION\n2\n1,1,1.,2,1,-1.", "equation", ["*EQUATION"]),
+    (PAIR, PAIR + "\n*RIGID BODY, NSET=NFIX, REF NODE=1", "rigid body", ["*RIGID BODY"]),
+    (PAIR, PAIR + "\n*ELEMENT, TYPE=B31, ELSET=BEAM\n901, 1, 2", "element", ["of type B31"]),
+    (PAIR, PAIR + "\n*BEAM SECTION, ELSET=ELOW, MATERIAL=EL\n1., 1.", "beam section", ["*BEAM"]),
+    ("*ELASTIC\n1000, .3", "*ELASTIC\n1000, .3\n*PLASTIC\n5., 0.", "plastic", ["*PLASTIC"])]
 # A punch whose bottom is designed, on a flat block, at both of which nodes match. The rows have the
 # normal of the flat master side, so that the true surface between the nodes does not matter.
 PUNCH_ON_BASE = """
@@ -125,7 +143,7 @@ WRONG = [
     ("*NODE FILE\nU", "*CLOAD\n118,z,1", ["line 92", "'z'"]),
     ("*NODE FILE\nU", "*CLOAD\n118,3,one", ["line 92", "'one' is not a number"]),
     ("** two blocks", "two blocks", ["needs a deck"]),
-    ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=B31", ["element type 'B31'"]),
+    ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=C3D9", ["element type 'C3D9'"]),
     ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["more.inp"]),
     ("*NODE, NSET=NALL", "*INSTANCE, NAME=a, PART=b\n*NODE, NSET=NALL", ["has no *END"]),
     ("*NODE, NSET=NALL", "*PART, NAME=b\n*PART, NAME=c\n*NODE, NSET=NALL", ["more than one part"])]
@@ -165,11 +183,13 @@ def check_decks(runner, meshes):
     scene = runner.folder / "blocks.prm"
     scene.write_text(BLOCKS)
     expected, _ = runner.summary("blocks", scene, *EXACT)
-    for name, lines in LEFT_OUT.items():
+    held, _ = runner.summary("held", scene, *EXACT, HELD)
+    for name, lines in REMARKS.items():
+        of_deck = held if name.startswith("prepomax") else expected
         found, _ = runner.summary(name + ".out", meshes / name, *EXACT, ranks=2)
-        runner.compare(name, found, expected, 1e-9)
+        runner.compare(name, found, of_deck, 1e-9)
         done = runner.run("--translate", meshes / name)
-        runner.require(f"{name} lists what it leaves out",
+        runner.require(f"{name} lists what it changes",
                        done.returncode == 0 and all(line in done.stdout for line in lines),
                        done.stdout[:900])
         # The parameter file says the same beside the deck.
@@ -177,7 +197,27 @@ def check_decks(runner, meshes):
         written = runner.folder / (name + ".prm")
         written.write_text(done.stdout)
         found, _ = runner.summary(name + ".prm.out", written, *EXACT)
-        runner.compare(f"parameter file of {name}", found, expected, 1e-9)
+        runner.compare(f"parameter file of {name}", found, of_deck, 1e-9)
+
+
+def check_lacking_parts(runner, meshes):
+    """A part of the model without a translation ends the run, unless its kind is accepted."""
+    good = (meshes / "ccx-blocks.inp").read_text()
+    for number, (old, new, kind, words) in enumerate(LACKING):
+        assert old in good, old
+        path = runner.folder / f"lacking-{number}.inp"
+        path.write_text(good.replace(old, new, 1))
+        done = runner.run(path, "--validate")
+        runner.require(f"deck with {kind}", done.returncode == 2 and
+                       f'--leave-out "{kind}"' in done.stdout and
+                       all(word in done.stdout for word in ["not translated: *", *words]),
+                       done.stdout[:400])
+        done = runner.run(path, "--validate", "--leave-out", kind)
+        runner.require(f"deck without {kind}", done.returncode == 0 and
+                       f"left out: *{kind.upper()}" in done.stdout, done.stdout[:400])
+    done = runner.run(path, "--validate", "--leave-out", "plastic, tie")
+    runner.require("unknown kind", done.returncode == 2 and
+                   "the deck has no 'tie'" in done.stdout, done.stdout)
 
 
 def check_includes(runner, meshes):
@@ -324,6 +364,7 @@ def main():
             check_calculix(runner, options.meshes.parent / "scenes")
         else:
             check_decks(runner, options.meshes)
+            check_lacking_parts(runner, options.meshes)
             check_includes(runner, options.meshes)
             check_forces(runner, options.meshes)
             check_wrong_decks(runner, options.meshes)

@@ -19,6 +19,11 @@ template <int dim>
 std::vector<supports::Support<dim>> build_supports(const scene::Scene        &scene,
                                                    const mesh::BodyMesh<dim> &mesh);
 
+/// Return the supports of single nodes.
+template <int dim>
+std::vector<supports::PointSupport<dim>> build_point_supports(const scene::Scene        &scene,
+                                                              const mesh::BodyMesh<dim> &mesh);
+
 /// Return the springs between the bodies and the ground.
 template <int dim>
 std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scene,

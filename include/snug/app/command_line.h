@@ -9,9 +9,10 @@ namespace snug::app {
 struct Options
 {
   std::string              file;
-  std::vector<std::string> sets;   ///< "Subsection/Entry=value"
-  std::string              output; ///< directory; empty: as in the file
-  std::string              petsc;  ///< options of PETSc, "-NAME VALUE -NAME ..."
+  std::vector<std::string> sets;      ///< "Subsection/Entry=value"
+  std::string              output;    ///< directory; empty: as in the file
+  std::string              petsc;     ///< options of PETSc, "-NAME VALUE -NAME ..."
+  std::string              leave_out; ///< kinds of parts of a deck that are left out
   bool                     restart          = false;
   bool                     validate         = false;
   bool                     advise           = false;

@@ -14,6 +14,8 @@ namespace snug::deck {
 class DeckBodies
 {
 public:
+  using Corners = std::vector<unsigned int>;
+
   struct Body
   {
     std::string                         name;     ///< name in the parameter file
@@ -22,8 +24,10 @@ public:
     std::vector<std::string>            sets;     ///< 'Boundary sets'
     std::vector<std::set<unsigned int>> faces;    ///< outer faces of each set
     std::map<std::string, std::string>  alias;    ///< set -> the set with the same faces
-    /// sorted corners of an outer face -> index of the face
-    std::map<std::vector<unsigned int>, unsigned int> outer;
+    std::vector<Corners>                outer;    ///< outer faces, in the order of faces_of()
+    std::map<Corners, unsigned int>     index_of; ///< sorted corners -> index of the outer face
+    /// node -> an outer face on which it lies
+    std::map<unsigned int, unsigned int> face_at;
   };
 
   explicit DeckBodies(const mesh_file::DeckMesh &deck);
@@ -31,42 +35,61 @@ public:
   const std::vector<Body> &all() const { return bodies; }
   unsigned int             dimension() const { return dim; }
 
-  /// Return whether the edges of all cells have middle nodes.
-  bool is_second_order() const;
-
   /// Use a set of faces or an optional boundary. Return whether a body has such a face.
   bool use(const std::string &set);
 
   /// Return the bodies that have faces of the set.
   std::vector<unsigned int> bodies_of(const std::string &set) const;
 
+  /// Return the outer faces of a body that belong to the set, or all of them for the set "".
+  std::set<unsigned int> faces_on(unsigned int body, const std::string &set) const;
+
+  /// Return the corners of all outer faces of bodies that belong to the set.
+  std::vector<Corners> faces_of(const std::string &set) const;
+
+  /// Return whether two sets have the same faces, or common ones. Both must have been used before.
+  bool have_same_faces(const std::string &set, const std::string &other) const;
+  bool have_common_faces(const std::string &set, const std::string &other) const;
+
   /// Return the name of one of the 'Boundary sets' of a body: SET for BODY.SET.
   std::string boundary_name(unsigned int body, const std::string &set) const;
 
-  /// Return the boundaries of a body that consist of faces of the set, such as "a" and "a and b".
-  /// All sets must have been used before.
-  std::vector<std::string> boundaries(unsigned int body, const std::string &set) const;
+  /// Return the boundaries of a body to which outer faces belong, such as "a" and "a and b". All
+  /// sets must have been used before.
+  std::vector<std::string> boundaries(unsigned int body, const std::set<unsigned int> &faces) const;
 
   /// Return a boundary of a body on which the node lies, or nothing. Faces of no set are the
   /// boundary "free". All sets must have been used before.
   std::optional<std::string> boundary_at(unsigned int body, unsigned int node) const;
 
+  const dealii::Point<3> &point(const unsigned int node) const { return mesh.points[node]; }
+
+  const Corners &corners_of(const unsigned int element) const
+  {
+    return mesh.elements[element].corners;
+  }
+
   /// Return the position of a node, one number per dimension [length].
   std::vector<double> position(unsigned int node) const;
 
-  /// Return the number of nodes of the optional boundary @p set that lie on none of its faces.
-  unsigned int nodes_without_face(const std::string &set) const;
+  /// Return the corners of a face, and the nodes in the middles of its edges and of the face.
+  std::vector<unsigned int> nodes_of(const Corners &face) const;
+
+  /// Return the nodes of the optional boundary @p set that are nodes of cells, but lie on none of
+  /// its faces.
+  std::set<unsigned int> nodes_without_face(const std::string &set) const;
 
 private:
   const mesh_file::MeshFile &mesh;
   unsigned int               dim = 0;
   std::vector<Body>          bodies;
   std::set<std::string>      used;
+  std::vector<bool>          is_cell_node;
   /// set of faces -> sorted corners of its faces
-  std::map<std::string, std::vector<std::vector<unsigned int>>> faces_of_set;
+  std::map<std::string, std::vector<Corners>> faces_of_set;
 
-  std::set<unsigned int> faces_on(const Body &body, const std::string &set) const;
-  std::string            face_name(unsigned int body, unsigned int face) const;
+  void        add_body(const mesh_file::ConnectedCells &cells, bool is_only_one);
+  std::string face_name(unsigned int body, unsigned int face) const;
 };
 } // namespace snug::deck
 

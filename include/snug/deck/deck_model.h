@@ -2,13 +2,13 @@
 #define snug_deck_deck_model_h
 
 #include <snug/deck/deck_bodies.h>
-#include <snug/deck/left_out.h>
+#include <snug/deck/remarks.h>
 
 #include <optional>
 
 namespace snug::deck {
 /// The materials, supports, loads and contacts of a deck. Sets are named as in DeckBodies, and have
-/// been used there.
+/// been used there. Nodes and elements are indices.
 struct DeckModel
 {
   struct Material
@@ -16,16 +16,25 @@ struct DeckModel
     std::string           name;
     unsigned long         line;
     std::optional<double> youngs_modulus, poissons_ratio;
-    double                density = 0.;
+    double                density = 0., expansion = 0.;
   };
 
-  /// A displacement component of a set [length].
+  /// A displacement component of a set of faces [length].
   struct PrescribedComponent
   {
     std::string   set;
-    unsigned int  component;
+    unsigned int  component; ///< 0, 1, 2: x, y, z; 3: along the normal
     double        value;
     unsigned long line;
+    unsigned int  step; ///< in which it is given
+  };
+
+  /// A number, the line where it stands and the step in which it is given.
+  struct Given
+  {
+    double        value;
+    unsigned long line;
+    unsigned int  step;
   };
 
   /// A pressure (one component) or a traction on a set.
@@ -33,14 +42,9 @@ struct DeckModel
   {
     std::string         set;
     std::vector<double> components;
+    std::string         keyword; ///< DLOAD or DSLOAD
     unsigned long       line;
-  };
-
-  /// The sum of the forces at a node [force].
-  struct PointForce
-  {
-    std::vector<double>        components;
-    std::vector<unsigned long> lines;
+    unsigned int        step;
   };
 
   /// Gravity of the elements of a set.
@@ -49,33 +53,74 @@ struct DeckModel
     std::set<unsigned int> elements;
     std::vector<double>    acceleration;
     unsigned long          line;
+    unsigned int           step;
   };
 
-  struct Contact
+  /// Supports and loads at the end of a step; those of earlier steps continue.
+  struct Step
   {
-    std::string   slave, master, interaction;
+    std::string                      name;
+    unsigned long                    line = 0;
+    std::vector<PrescribedComponent> prescribed;
+    /// node and component -> displacement, at nodes that belong to no face of their set
+    std::map<std::pair<unsigned int, unsigned int>, Given> held_nodes;
+    std::vector<FaceLoad>                                  pressures, tractions;
+    /// node and component -> the forces there
+    std::map<std::pair<unsigned int, unsigned int>, std::vector<Given>> point_forces;
+    std::vector<Gravity>                                                gravities;
+    std::map<unsigned int, Given>                                       temperatures; ///< by node
+  };
+
+  /// A spring between a node and the ground, along an axis [force / length].
+  struct Spring
+  {
+    unsigned int  node, component;
+    double        stiffness;
     unsigned long line;
   };
 
+  struct Interaction
+  {
+    std::string   name; ///< in upper case
+    unsigned long line;
+    double        friction = 0.;
+  };
+
+  /// A contact of two sets of faces on one body each; the set "" are all outer faces.
+  struct Contact
+  {
+    std::string   slave, master;
+    unsigned int  slave_body, master_body;
+    std::string   interaction; ///< in upper case, or ""
+    double        gap;         ///< added to that of the mesh [length]
+    unsigned long line;
+    /// general contact: any side may be the slave side, and only faces within reach take part
+    bool                   is_general  = false;
+    std::set<unsigned int> slave_faces = {}, master_faces = {};
+    double                 reach = 0.; ///< [length]
+  };
+
   std::vector<Material>               materials;
-  std::map<unsigned int, std::string> material_of; ///< element -> material
-  std::map<unsigned int, std::string> region_of;   ///< element -> set of its section
-  std::vector<PrescribedComponent>    prescribed;
-  std::vector<FaceLoad>               pressures, tractions;
-  std::map<unsigned int, PointForce>  point_forces; ///< by node
-  std::vector<Gravity>                gravities;
+  std::map<unsigned int, std::string> material_of;          ///< element -> material
+  std::map<unsigned int, std::string> region_of;            ///< element -> set of its section
+  Step                                initial;              ///< before the first step
+  std::vector<Step>                   steps;                ///< static steps
+  std::map<unsigned int, double>      initial_temperatures; ///< by node
+  std::vector<Spring>                 springs;
+  std::vector<Interaction>            interactions;
   std::vector<Contact>                contacts;
-  std::map<std::string, double>       friction; ///< interaction in upper case -> coefficient
   std::optional<double>               thickness;
-  std::string                         model = "solid";
+  std::string                         model  = "solid";
+  unsigned int                        degree = 1;
+  std::string                         units; ///< "mm, N", or ""
 };
 
-/// Read the keywords of a deck. Keywords and options that are not read are added to @p left_out.
+/// Read the keywords of a deck. Keywords and options that are not read are noted in @p remarks.
 /// @throws InputError "line 17: message".
 DeckModel read_model(const mesh_file::DeckText &text,
                      const mesh_file::DeckMesh &deck,
                      DeckBodies                &bodies,
-                     LeftOut                   &left_out);
+                     Remarks                   &remarks);
 } // namespace snug::deck
 
 #endif

@@ -46,8 +46,13 @@ struct DeckSets
   std::set<std::string>              qualified_names;
   std::map<std::string, std::string> spelling; ///< key of a set -> name of the group
   std::set<std::string>              surfaces; ///< names of the groups of faces
-  /// line of *BOUNDARY or *DLOAD with nodes or faces -> name of the optional boundary
-  std::map<unsigned long, std::string> of_lines;
+  /// lines of *BOUNDARY or *DLOAD with nodes or faces -> name of the optional boundary, see group()
+  std::map<std::pair<std::size_t, std::string>, std::string> of_lines;
+
+  /// Return the key of a data line in of_lines. Lines of a keyword with equal data, but different
+  /// nodes or faces, have one key.
+  static std::pair<std::size_t, std::string> group(const Keyword                  &keyword,
+                                                   const std::vector<std::string> &words);
 
   /// Return the key of a set. The set is spelled as it occurs first. A set of an instance is called
   /// INSTANCE.SET if the assembly has a set of the same name.
@@ -80,11 +85,22 @@ private:
   std::pair<const Scope *, std::string> split(const std::string &word,
                                               const std::string &prefix) const;
 };
+
+/// An element that is no cell: a spring, a mass, a beam or a connector. It is a vertex of the mesh,
+/// so that it may belong to sets.
+struct PointElement
+{
+  std::string               type;  ///< in upper case
+  std::vector<unsigned int> nodes; ///< indices into the points
+  unsigned long             line;
+};
+
 /// A deck: its mesh, and the sets to which its other keywords refer.
 struct DeckMesh
 {
-  MeshFile mesh;
-  DeckSets sets;
+  MeshFile                             mesh;
+  DeckSets                             sets;
+  std::map<unsigned int, PointElement> point_elements; ///< by index of the element
 };
 
 /// Read the mesh of a deck, see read_abaqus(). @throws InputError "line 17: message".

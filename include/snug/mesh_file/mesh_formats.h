@@ -51,6 +51,10 @@ struct ElementType
 /// @throws InputError if the type is not supported.
 ElementType abaqus_type(const std::string &name, unsigned long line);
 
+/// Return whether an element type of Abaqus is a spring, mass, beam, pipe, connector, gap or
+/// dashpot, which is no cell and no face. @p name is in upper case.
+bool is_point_element(const std::string &name);
+
 /// This class maps the numbers of nodes in a file to indices of points.
 class PointNumbers
 {

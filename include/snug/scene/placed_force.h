@@ -17,6 +17,18 @@ struct PlacedForce
 
 /// Read a force. @throws std::invalid_argument unless vectors have @p dimension numbers.
 PlacedForce placed_force(const std::string &text, unsigned int dimension);
+
+/// Displacement components that are held at a point, 'xy at X Y Z' or 'x = VALUE at X Y Z'.
+struct PointHold
+{
+  std::vector<unsigned int> components; ///< 0, 1, 2: x, y, z
+  double                    value = 0.; ///< [length]
+  std::vector<double>       at;         ///< the point [length]
+};
+
+/// Read a point support. @throws std::invalid_argument unless it has components along axes, and a
+/// point of @p dimension numbers.
+PointHold point_hold(const std::string &text, unsigned int dimension);
 } // namespace snug::scene
 
 #endif

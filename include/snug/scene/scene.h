@@ -62,6 +62,8 @@ struct Body
   elasticity::Formulation            formulation = elasticity::Formulation::standard;
   /// boundary -> components held at zero: words made of "xyz", "normal"
   std::map<std::string, std::string> supports;
+  /// boundary -> 'components = value at x y z', see point_hold()
+  std::vector<std::pair<std::string, std::string>> point_supports;
   /// boundary -> 'components = formula' [force / length^3]
   std::vector<std::pair<std::string, std::string>> springs;
   /// boundary -> 'x y z at x y z', see placed_force() [force / length]

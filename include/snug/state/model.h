@@ -109,12 +109,13 @@ struct LoadCase
 template <int dim>
 struct Model
 {
-  std::vector<std::string>            body_names;
-  std::vector<BodyModel<dim>>         bodies;
-  std::vector<LoadCase<dim>>          load_cases; ///< at least one
-  std::vector<supports::Support<dim>> supports;
-  std::vector<supports::Spring<dim>>  springs;
-  std::vector<contact::Pair>          pairs;
+  std::vector<std::string>                 body_names;
+  std::vector<BodyModel<dim>>              bodies;
+  std::vector<LoadCase<dim>>               load_cases; ///< at least one
+  std::vector<supports::Support<dim>>      supports;
+  std::vector<supports::PointSupport<dim>> point_supports;
+  std::vector<supports::Spring<dim>>       springs;
+  std::vector<contact::Pair>               pairs;
   /// minimum of a cell; meshes and designs with a cell below it are rejected
   double               least_scaled_jacobian = 0.;
   feti::FetiParameters feti;

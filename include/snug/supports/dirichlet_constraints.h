@@ -6,6 +6,7 @@
 #include <snug/supports/constraint_frame.h>
 #include <snug/supports/support.h>
 
+#include <map>
 #include <optional>
 
 namespace snug::supports {
@@ -32,11 +33,12 @@ public:
 
   /// Collect the constraints. @p mesh must outlive this object. Collective.
   /// @throws InputError naming two supports that hold a node in one direction at different
-  /// displacements.
-  DirichletConstraints(const mesh::BodyMesh<dim>       &mesh,
-                       const std::vector<Support<dim>> &supports,
-                       unsigned int                     n_load_cases,
-                       const Field                     &positions);
+  /// displacements, or a point support without a node.
+  DirichletConstraints(const mesh::BodyMesh<dim>            &mesh,
+                       const std::vector<Support<dim>>      &supports,
+                       unsigned int                          n_load_cases,
+                       const Field                          &positions,
+                       const std::vector<PointSupport<dim>> &points = {});
 
   /// Return the number of held nodes, which are ascending by global node.
   unsigned int n_nodes() const { return nodes.size(); }
@@ -114,10 +116,19 @@ private:
     bool              follows = false;
   };
 
-  void    collect_holds(const std::vector<Support<dim>> &supports, const SurfaceField &reference);
-  void    leave_out_dependent(const SurfaceField &positions);
-  double  largest_value() const;
-  Normals normals(const SurfaceField &positions) const;
+  using Nodes = std::map<unsigned int, Node>; ///< by surface node
+
+  void                 collect_holds(const std::vector<Support<dim>> &supports,
+                                     const SurfaceField              &reference,
+                                     Nodes                           &found) const;
+  void                 collect_points(const std::vector<PointSupport<dim>> &points,
+                                      const SurfaceField                   &reference,
+                                      Nodes                                &found) const;
+  void                 add_hold(Nodes &found, unsigned int node, const Hold &hold) const;
+  void                 store(const Nodes &found);
+  void                 leave_out_dependent(const SurfaceField &positions);
+  double               largest_value() const;
+  Normals              normals(const SurfaceField &positions) const;
   ConstraintFrame<dim> given_frame(const Node &node, const Normals &normals) const;
 
   const mesh::BodyMesh<dim>             &mesh;

@@ -23,6 +23,18 @@ struct Support
   std::string name;      ///< name as the user wrote it, for messages
   std::string face = {}; ///< "body.boundary", for results
 };
+
+/// Displacement component held at one node on a boundary of a body, in all load cases.
+template <int dim>
+struct PointSupport
+{
+  unsigned int       body, boundary;
+  unsigned int       component; ///< 0, 1, 2: x, y, z
+  double             value;     ///< prescribed displacement [length]
+  dealii::Point<dim> place;     ///< reference position of the node
+  std::string        name;      ///< as the user wrote it, for messages
+  std::string        face;      ///< "body.boundary", for results
+};
 } // namespace snug::supports
 
 #endif

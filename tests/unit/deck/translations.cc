@@ -1,47 +1,7 @@
-#include <snug/base/errors.h>
-#include <snug/deck/left_out.h>
-#include <snug/deck/translation.h>
-#include <snug/scene/read_scene.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "squares.h"
 
 namespace snug {
 namespace {
-/// Two squares of different materials in one element set, a third square without contact to them,
-/// and a step. @p keywords stand before the step, @p loads in the step.
-std::string squares(const std::string &keywords, const std::string &loads)
-{
-  return "*NODE\n1, 0, 0\n2, 1, 0\n3, 2, 0\n4, 0, 1\n5, 1, 1\n6, 2, 1\n"
-         "11, 0, 2\n12, 1, 2\n13, 0, 3\n14, 1, 3\n"
-         "*ELEMENT, TYPE=CPE4, ELSET=left\n1, 1, 2, 5, 4\n"
-         "*ELEMENT, TYPE=CPE4, ELSET=right\n2, 2, 3, 6, 5\n"
-         "*ELEMENT, TYPE=CPE4, ELSET=lid\n3, 11, 12, 14, 13\n"
-         "*ELSET, ELSET=base\nleft, right\n"
-         "*NSET, NSET=bottom\n1, 2, 3\n*NSET, NSET=corner\n1\n*NSET, NSET=\"lower left\"\n1, 2\n"
-         "*SURFACE, NAME=top\nlid, S3\n*SURFACE, NAME=under\nlid, S1\n*SURFACE, NAME=over\nbase, "
-         "S3\n"
-         "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e5, 0.3\n*DENSITY\n7.8e-9\n"
-         "*MATERIAL, NAME=rubber\n*ELASTIC\n10, 0.45\n"
-         "*SOLID SECTION, ELSET=left, MATERIAL=STEEL\n3.\n"
-         "*SOLID SECTION, ELSET=right, MATERIAL=rubber\n3.\n"
-         "*SOLID SECTION, ELSET=lid, MATERIAL=steel\n3.\n" +
-         keywords + "*STEP\n*STATIC\n" + loads + "*END STEP\n";
-}
-
-scene::Scene scene_of(const deck::Translation &translation, const std::string &deck)
-{
-  return scene::read_scene(
-    {"deck.inp", translation.text, {}, "", [&](const std::string &) { return deck; }});
-}
-
-bool lists(const deck::Translation &translation, const std::string &text)
-{
-  return std::any_of(translation.left_out.begin(), translation.left_out.end(),
-                     [&](const std::string &line) { return line.find(text) != std::string::npos; });
-}
-
 TEST(Translations, BodiesAreConnectedCellsWithTheMaterialsOfTheirSections)
 {
   const auto text        = squares("", "");
@@ -58,7 +18,8 @@ TEST(Translations, BodiesAreConnectedCellsWithTheMaterialsOfTheirSections)
   ASSERT_EQ(scene.materials.size(), 2u);
   EXPECT_EQ(scene.materials[1].material.youngs_modulus, 2.1e5);
   EXPECT_EQ(scene.materials[1].material.density, 7.8e-9);
-  EXPECT_TRUE(translation.left_out.empty());
+  EXPECT_TRUE(translation.lacking.empty());
+  EXPECT_TRUE(translation.replaced.empty());
 }
 
 TEST(Translations, SupportsOfOverlappingSetsAddUp)
@@ -73,33 +34,11 @@ TEST(Translations, SupportsOfOverlappingSetsAddUp)
   EXPECT_EQ(scene.bodies[0].loads.displacements,
             (std::vector<std::pair<std::string, std::string>>{
               {"bottom", "y = 0.5"}, {"bottom and lower left", "y = 0.5"}}));
-  EXPECT_TRUE(lists(translation, "*BOUNDARY of nodes or sets without a face"));
-  EXPECT_EQ(translation.left_out.size(), 1u);
+  EXPECT_TRUE(replaces(translation, "point supports for nodes of *BOUNDARY"));
+  EXPECT_EQ(scene.bodies[0].point_supports,
+            (Pairs{{"bottom and lower left", "x at 0 0"}, {"bottom and lower left", "y at 0 0"}}));
+  EXPECT_TRUE(translation.lacking.empty());
 }
-
-TEST(Translations, LoadsAndContactsAreThoseOfTheFirstStep)
-{
-  const auto text = squares(
-    "*SURFACE INTERACTION, NAME=rough\n*FRICTION\n.2\n*CONTACT PAIR, INTERACTION=Rough\nunder, "
-    "over\n",
-    "*DSLOAD\ntop, P, 4\ntop, TRVEC, 10., 3., 4.\n*DLOAD\n3, P3, 1.5\n, GRAV, 9810., 0., -1.\n"
-    "*END STEP\n*STEP\n*DSLOAD\ntop, P, 9\n*CLOAD\n13, 2, 7.\n");
-  const auto translation = deck::translate(text, "deck.inp");
-  const auto scene       = scene_of(translation, text);
-  EXPECT_EQ(scene.bodies[1].loads.pressure, (std::map<std::string, std::string>{{"top", "5.5"}}));
-  EXPECT_EQ(scene.bodies[1].loads.traction, (std::map<std::string, std::string>{{"top", "6 8"}}));
-  EXPECT_EQ(scene.gravity, (std::vector<double>{0., -9810.}));
-  ASSERT_EQ(scene.contact.pairs.size(), 1u);
-  EXPECT_EQ(scene.contact.pairs[0].slave, "lid.under");
-  EXPECT_EQ(scene.contact.pairs[0].master, "base.over");
-  EXPECT_EQ(scene.contact.pairs[0].parameters.friction, contact::Friction::Coulomb);
-  EXPECT_EQ(scene.contact.pairs[0].parameters.friction_coefficient, "0.2");
-  EXPECT_TRUE(scene.bodies[1].loads.point_forces.empty());
-  EXPECT_TRUE(lists(translation, "*CLOAD of a step after the first"));
-  EXPECT_TRUE(lists(translation, "*DSLOAD of a step after the first"));
-}
-
-using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 TEST(Translations, ForcesOfANodeAddUpAtABoundaryOfTheNode)
 {
@@ -108,7 +47,7 @@ TEST(Translations, ForcesOfANodeAddUpAtABoundaryOfTheNode)
                                           "13, 2, 1.5\n");
   const auto translation = deck::translate(text, "deck.inp");
   const auto scene       = scene_of(translation, text);
-  EXPECT_TRUE(translation.left_out.empty());
+  EXPECT_TRUE(translation.lacking.empty());
   // Node 13 is at the end of the faces of a surface and of a face of no set.
   EXPECT_EQ(scene.bodies[1].loads.point_forces, (Pairs{{"free", "-2 8.5 at 0 3"}}));
   EXPECT_EQ(scene.bodies[0].loads.point_forces, (Pairs{{"bottom", "0.5 0 at 0 0"},
@@ -182,19 +121,44 @@ TEST(Translations, CellsOfSecondOrderHaveDegree2)
   // Node 2002 is in the middle of an edge of the boundary. Node 1002 belongs to no element.
   EXPECT_EQ(scene.bodies[0].loads.point_forces, (Pairs{{"free", "0 1 at 0.5 1"}}));
   EXPECT_TRUE(lists(translation, "*CLOAD of nodes on no boundary of a body"));
-  const auto mixed = strip(2, "CPS4");
-  EXPECT_EQ(scene_of(deck::translate(mixed, "deck.inp"), mixed).degree, 1u);
 }
 
-TEST(Translations, ForcesOfManyNodesAreLeftOut)
+TEST(Translations, TheDegreeIsThatOfTheRichestElements)
 {
-  const auto many = strip(9, "CPS8") + "*CLOAD\ntop, 2, 1.\n2001, 1, 1.\n"; // of 21 nodes
-  const auto left = deck::translate(many, "deck.inp");
-  EXPECT_TRUE(lists(left, "*CLOAD of more than 20 nodes; use *DSLOAD (lines "));
-  EXPECT_TRUE(scene_of(left, many).bodies[0].loads.point_forces.empty());
-  const auto text = strip(8, "CPS8") + "*CLOAD\ntop, 2, 1.\n";
+  for (const std::string type : {"CPS4", "CPS4R", "CPS4I"})
+    {
+      const auto mixed       = strip(2, type);
+      const auto translation = deck::translate(mixed, "deck.inp");
+      EXPECT_EQ(scene_of(translation, mixed).degree, 2u);
+      EXPECT_TRUE(replaces(translation, "elements of degree 2 instead of " + type));
+    }
+  for (const auto &[type, degree] :
+       std::map<std::string, unsigned int>{{"CPS4", 1}, {"CPS4R", 2}, {"CPS4I", 2}})
+    {
+      auto text = squares("", "");
+      for (auto at = text.find("CPE4"); at != std::string::npos; at = text.find("CPE4"))
+        text.replace(at, 4, type);
+      EXPECT_EQ(scene_of(deck::translate(text, "deck.inp"), text).degree, degree) << type;
+    }
+}
+
+TEST(Translations, ForcesOfManyNodesArePointForces)
+{
+  const auto text = strip(9, "CPS8") + "*CLOAD\ntop, 2, 1.\n2001, 1, 1.\n"; // of 21 nodes
   EXPECT_EQ(scene_of(deck::translate(text, "deck.inp"), text).bodies[0].loads.point_forces.size(),
-            19u);
+            21u);
+}
+
+TEST(Translations, SpringsToTheGroundArePointSprings)
+{
+  const auto text        = squares("*ELEMENT, TYPE=SPRING1, ELSET=S\n91, 13\n92, 14\n"
+                                          "*SPRING, ELSET=S\n2\n50.\n*ELEMENT, TYPE=MASS, ELSET=M\n93, 11\n"
+                                          "*MASS, ELSET=M\n1.\n",
+                                   "");
+  const auto translation = deck::translate(text, "deck.inp");
+  EXPECT_TRUE(translation.lacking.empty());
+  EXPECT_EQ(scene_of(translation, text).bodies[1].point_springs,
+            (Pairs{{"free", "0 50 at 0 3"}, {"free", "0 50 at 1 3"}}));
 }
 
 TEST(Translations, WrongForcesAreErrorsWithTheirLine)

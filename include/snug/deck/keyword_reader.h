@@ -1,0 +1,69 @@
+#ifndef snug_deck_keyword_reader_h
+#define snug_deck_keyword_reader_h
+
+#include <snug/deck/deck_model.h>
+
+#include <functional>
+
+namespace snug::deck {
+/// Options of a keyword.
+struct KeywordOptions
+{
+  std::set<std::string> read;     ///< options that are read
+  std::set<std::string> unneeded; ///< options that change no result
+};
+
+/// How a keyword is read.
+struct KeywordReading
+{
+  std::function<void(const mesh_file::Keyword &)> read;
+  KeywordOptions                                  options     = {};
+  bool                                            takes_lines = true; ///< whether data lines follow
+};
+
+using KeywordReadings = std::map<std::string, KeywordReading>; ///< by Keyword::name
+
+/// The deck, and the model that the readers of keywords make from it.
+struct Reading
+{
+  using Keyword = mesh_file::Keyword;
+
+  const mesh_file::DeckText &text;
+  const mesh_file::DeckMesh &deck;
+  DeckBodies                &bodies;
+  Remarks                   &remarks;
+  DeckModel                  model    = {};
+  std::vector<std::string>   prefixes = {""}; ///< of the instances of the current part
+
+  /// Note a part of the model that the translation lacks: "*CLOAD" + @p what.
+  void lacks(const Keyword &keyword, const std::string &what, unsigned long line);
+  void lacks(const Keyword &keyword, const std::string &what)
+  {
+    lacks(keyword, what, keyword.line);
+  }
+
+  /// Return the numbers of the first data line. Further lines are noted as lacking.
+  std::vector<double> first_line(const Keyword &keyword);
+
+  /// Return the name of the surface @p word, which may consist of nodes. @throws InputError at
+  /// @p line.
+  std::string surface(const std::string &word, unsigned long line) const;
+
+  /// Use a set of faces. Return whether a body has such a face, and note a set without one.
+  bool use(const Keyword &keyword, const std::string &set, unsigned long line);
+};
+
+/// Return the title of a keyword, with the name of an included file.
+std::string title_of(const mesh_file::Keyword &keyword);
+
+/// Return the readings of *MATERIAL, *ELASTIC, *SOLID SECTION, *ELEMENT and the like.
+KeywordReadings material_readings(Reading &reading);
+
+/// Return the readings of *BOUNDARY, loads and steps.
+KeywordReadings load_readings(Reading &reading);
+
+/// Return the readings of contact and friction.
+KeywordReadings contact_readings(Reading &reading);
+} // namespace snug::deck
+
+#endif

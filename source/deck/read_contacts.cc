@@ -1,0 +1,289 @@
+#include <snug/base/values.h>
+#include <snug/deck/face_gaps.h>
+#include <snug/deck/keyword_reader.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace snug::deck {
+using mesh_file::error_at_line;
+using mesh_file::Keyword;
+using mesh_file::keyword_error;
+using mesh_file::to_number;
+using mesh_file::upper_case;
+using Words = std::vector<std::string>;
+
+namespace {
+/// Gaps below this fraction of a face are those of rounded positions.
+const double closed_gap = 0.01;
+
+/// This class reads the contacts and their friction.
+class ContactReader
+{
+public:
+  explicit ContactReader(Reading &reading) : reading(reading), model(reading.model) {}
+
+  void read_interaction(const Keyword &keyword)
+  {
+    model.interactions.push_back({upper_case(keyword.option("NAME")), keyword.line});
+  }
+
+  /// Contact is hard, whatever the stiffness of the deck.
+  void read_behavior(const Keyword &keyword)
+  {
+    const auto law = upper_case(keyword.option("PRESSURE-OVERCLOSURE"));
+    if (law == "TIED")
+      reading.lacks(keyword, " TIED");
+    else if (!law.empty() && law != "HARD")
+      reading.remarks.replaced("hard contact instead of " + title_of(keyword) + " " + law,
+                               keyword.line);
+  }
+
+  void read_friction(const Keyword &keyword)
+  {
+    if (model.interactions.empty())
+      throw keyword_error(keyword, keyword.title + " must follow *SURFACE INTERACTION");
+    const auto numbers = reading.first_line(keyword);
+    if (!numbers.empty())
+      model.interactions.back().friction = numbers[0];
+    if (numbers.size() > 1)
+      reading.remarks.replaced("sticking without slip instead of the second number of " +
+                                 title_of(keyword),
+                               keyword.line);
+  }
+
+  /// Read a line "slave surface, master surface".
+  void read_pair(const Keyword &keyword)
+  {
+    require_interaction(keyword, keyword.option("INTERACTION"));
+    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (words.size() < 2)
+        return reading.lacks(keyword, " of a surface with itself", line);
+      if (upper_case(keyword.option("TYPE")) == "TIED")
+        return reading.lacks(keyword, " of type TIED", line);
+      const auto slave = reading.surface(words[0], line), master = reading.surface(words[1], line);
+      if (!reading.use(keyword, slave, line) || !reading.use(keyword, master, line))
+        return;
+      DeckModel::Contact contact{slave, master, 0, 0, upper_case(keyword.option("INTERACTION")),
+                                 0.,    line};
+      const auto         slaves  = reading.bodies.bodies_of(slave);
+      const auto         masters = reading.bodies.bodies_of(master);
+      const bool         is_one  = slaves.size() == 1 && masters.size() == 1;
+      bool               is_used = false;
+      for (const unsigned int s : slaves)
+        for (const unsigned int m : masters)
+          if (s != m && (is_one || gaps(contact = with_bodies(contact, s, m)).n_nodes > 0))
+            {
+              contact = with_bodies(contact, s, m);
+              is_used = true;
+              adjust(keyword, contact);
+              model.contacts.push_back(contact);
+            }
+      if (!is_used)
+        reading.lacks(keyword, " of a body with itself, or of bodies far from each other", line);
+    });
+  }
+
+  void read_clearance(const Keyword &keyword)
+  {
+    if (!keyword.has("VALUE") || !keyword.has("SLAVE") || !keyword.has("MASTER"))
+      return reading.lacks(keyword, " without SLAVE, MASTER and VALUE");
+    const auto   slave    = reading.surface(keyword.option("SLAVE"), keyword.line);
+    const auto   master   = reading.surface(keyword.option("MASTER"), keyword.line);
+    const double value    = to_number(keyword.option("VALUE"), keyword.line);
+    bool         is_found = false;
+    for (auto &contact : model.contacts)
+      if (contact.slave == slave && contact.master == master)
+        {
+          is_found = true;
+          set_gap(keyword, contact, gaps(contact), value);
+        }
+    if (!is_found)
+      throw keyword_error(keyword, "there is no *CONTACT PAIR of these surfaces");
+  }
+
+  void begin_general(const Keyword &keyword)
+  {
+    general_line = keyword.line;
+    interaction.clear();
+  }
+
+  /// Read lines "surface, surface", where a missing name stands for all outer faces.
+  void read_inclusions(const Keyword &keyword)
+  {
+    if (keyword.has("ALLEXTERIOR") || keyword.has("ALLELEMENTBASED"))
+      return add_general(keyword, "", "", keyword.line);
+    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      const auto set = [&](const std::size_t i) {
+        return words.size() > i && !words[i].empty() ? reading.surface(words[i], line) : "";
+      };
+      const auto first = set(0), second = set(1);
+      for (const auto &name : {first, second})
+        if (!name.empty() && !reading.use(keyword, name, line))
+          return;
+      add_general(keyword, first, second, line);
+    });
+  }
+
+  /// Read a line ", , interaction", which holds for all contacts.
+  void read_assignment(const Keyword &keyword)
+  {
+    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (words.size() < 3 || !words[0].empty() || !words[1].empty())
+        return reading.lacks(keyword, " of single surfaces", line);
+      require_interaction(keyword, words[2]);
+      for (auto &contact : model.contacts)
+        if (contact.is_general)
+          contact.interaction = upper_case(words[2]);
+      interaction = upper_case(words[2]);
+    });
+  }
+
+private:
+  Reading      &reading;
+  DeckModel    &model;
+  std::string   interaction; ///< of general contact
+  unsigned long general_line = 0;
+
+  void require_interaction(const Keyword &keyword, const std::string &name) const
+  {
+    if (name.empty())
+      return;
+    for (const auto &known : model.interactions)
+      if (known.name == upper_case(name))
+        return;
+    throw keyword_error(keyword, "there is no *SURFACE INTERACTION '" + name + "'");
+  }
+
+  static DeckModel::Contact
+  with_bodies(DeckModel::Contact contact, const unsigned int slave, const unsigned int master)
+  {
+    contact.slave_body  = slave;
+    contact.master_body = master;
+    return contact;
+  }
+
+  BodyFaces slaves(const DeckModel::Contact &contact) const
+  {
+    return {contact.slave_body, reading.bodies.faces_on(contact.slave_body, contact.slave)};
+  }
+
+  BodyFaces masters(const DeckModel::Contact &contact) const
+  {
+    return {contact.master_body, reading.bodies.faces_on(contact.master_body, contact.master)};
+  }
+
+  /// Return the distance within which faces may come into contact: the size of a face of both sides
+  /// and the largest prescribed displacement.
+  double reach(const DeckModel::Contact &contact) const
+  {
+    double result  = std::max(mean_size(reading.bodies, slaves(contact)),
+                              mean_size(reading.bodies, masters(contact)));
+    double largest = 0.;
+    for (const auto *steps : {&model.initial, model.steps.empty() ? nullptr : &model.steps.back()})
+      if (steps != nullptr)
+        for (const auto &given : steps->prescribed)
+          largest = std::max(largest, std::abs(given.value));
+    return result + largest;
+  }
+
+  FaceGaps gaps(const DeckModel::Contact &contact) const
+  {
+    return face_gaps(reading.bodies, slaves(contact), masters(contact), reach(contact));
+  }
+
+  /// ADJUST moves the slave nodes within a distance onto the master. Nodes that are there already
+  /// stay.
+  void adjust(const Keyword &keyword, DeckModel::Contact &contact)
+  {
+    const auto given = keyword.option("ADJUST");
+    if (given.empty() || upper_case(given) == "NO" || upper_case(given) == "YES")
+      return;
+    const bool is_number = given.find_first_not_of("0123456789.eE+-") == std::string::npos;
+    if (!is_number)
+      return reading.lacks(keyword, ": the option ADJUST with a set");
+    const auto near =
+      face_gaps(reading.bodies, slaves(contact), masters(contact), to_number(given, keyword.line));
+    if (near.n_nodes > 0)
+      set_gap(keyword, contact, near, 0.);
+  }
+
+  /// Let the gap of a contact be @p wanted, if that of the mesh is uniform.
+  void set_gap(const Keyword      &keyword,
+               DeckModel::Contact &contact,
+               const FaceGaps     &mesh,
+               const double        wanted)
+  {
+    const double rounding = closed_gap * mean_size(reading.bodies, slaves(contact));
+    if (mesh.n_nodes > 0 &&
+        std::max(std::abs(mesh.least - wanted), std::abs(mesh.largest - wanted)) <= 1e-3 * rounding)
+      return;
+    if (mesh.n_nodes == 0 || !mesh.is_whole || mesh.largest - mesh.least > rounding)
+      return reading.lacks(keyword, " that changes gaps which are not uniform");
+    contact.gap = wanted - 0.5 * (mesh.least + mesh.largest);
+    reading.remarks.replaced("the gap " + to_text(wanted) + " instead of that of the mesh for " +
+                               title_of(keyword),
+                             keyword.line);
+  }
+
+  /// Add the contacts of general contact: pairs of bodies whose faces are within reach.
+  void add_general(const Keyword      &keyword,
+                   const std::string  &first,
+                   const std::string  &second,
+                   const unsigned long line)
+  {
+    if (general_line == 0)
+      throw keyword_error(keyword, keyword.title + " must follow *CONTACT");
+    const unsigned int n = reading.bodies.all().size();
+    for (unsigned int s = 0; s < n; ++s)
+      for (unsigned int m = first == second ? s + 1 : 0; m < n; ++m)
+        {
+          DeckModel::Contact contact{first, second, s, m, interaction, 0., line};
+          contact.is_general = true;
+          if (s == m || slaves(contact).faces.empty() || masters(contact).faces.empty())
+            continue;
+          const auto near  = gaps(contact);
+          auto       other = contact;
+          std::swap(other.slave, other.master);
+          std::swap(other.slave_body, other.master_body);
+          const auto opposite = gaps(other);
+          if (near.faces.empty() || opposite.faces.empty())
+            continue;
+          contact.slave_faces  = near.faces;
+          contact.master_faces = opposite.faces;
+          contact.reach        = reach(contact);
+          model.contacts.push_back(contact);
+          reading.remarks.replaced("the pair " + reading.bodies.all()[s].name + " and " +
+                                     reading.bodies.all()[m].name + " with gaps from " +
+                                     to_text(std::min(near.least, opposite.least)) +
+                                     " for general contact",
+                                   line);
+        }
+  }
+};
+} // namespace
+
+KeywordReadings contact_readings(Reading &reading)
+{
+  const auto reader = std::make_shared<ContactReader>(reading);
+  using M           = ContactReader;
+  const auto by     = [reader](void (M::*read)(const Keyword &)) {
+    return [reader, read](const Keyword &keyword) { (reader.get()->*read)(keyword); };
+  };
+  return {{"SURFACEINTERACTION", {by(&M::read_interaction), {{"NAME"}, {}}}},
+          {"SURFACEBEHAVIOR",
+           {by(&M::read_behavior),
+            {{"PRESSURE-OVERCLOSURE"}, {"PENALTY", "AUGMENTEDLAGRANGE", "DIRECT", "LINEAR"}}}},
+          {"FRICTION", {by(&M::read_friction), {{}, {"SLIPTOLERANCE", "ELASTICSLIP", "LAGRANGE"}}}},
+          {"CONTACTPAIR",
+           {by(&M::read_pair),
+            {{"INTERACTION", "TYPE", "ADJUST"},
+             {"SMALLSLIDING", "NOTHICKNESS", "EXTENSIONZONE", "TRACKING", "MECHANICALCONSTRAINT",
+              "WEIGHT", "CPSET", "SUPPLEMENTARYCONSTRAINTS", "OP", "HCRIT"}}}},
+          {"CLEARANCE", {by(&M::read_clearance), {{"SLAVE", "MASTER", "VALUE", "CPSET"}, {}}}},
+          {"CONTACT", {by(&M::begin_general), {{}, {"OP"}}, false}},
+          {"CONTACTINCLUSIONS",
+           {by(&M::read_inclusions), {{"ALLEXTERIOR", "ALLELEMENTBASED"}, {}}}},
+          {"CONTACTPROPERTYASSIGNMENT", {by(&M::read_assignment)}}};
+}
+} // namespace snug::deck

@@ -1,0 +1,167 @@
+#include "squares.h"
+
+namespace snug {
+namespace {
+TEST(DeckKeywords, StepsWithFrictionAreLoadSteps)
+{
+  const auto text = squares(
+    "*SURFACE INTERACTION, NAME=rough\n*FRICTION\n.2\n*CONTACT PAIR, INTERACTION=Rough\nunder, "
+    "over\n",
+    "*DSLOAD\ntop, P, 4\ntop, TRVEC, 10., 3., 4.\n*DLOAD\n3, P3, 1.5\n, GRAV, 9810., 0., -1.\n"
+    "*END STEP\n*STEP, NAME=push\n*STATIC\n*DSLOAD\ntop, P, 9\n*CLOAD\n13, 2, 7.\n");
+  const auto translation = deck::translate(text, "deck.inp");
+  const auto scene       = scene_of(translation, text);
+  ASSERT_EQ(scene.load_cases.size(), 2u);
+  const auto &first = scene.load_cases[0], &second = scene.load_cases[1];
+  EXPECT_EQ(first.name, "step-1");
+  EXPECT_EQ(second.name, "push");
+  EXPECT_FALSE(first.load_step);
+  EXPECT_TRUE(second.load_step);
+  EXPECT_EQ(first.loads.pressure, (std::map<std::string, std::string>{{"lid.top", "5.5"}}));
+  // The second *DSLOAD replaces that of the first step, and the other loads continue.
+  EXPECT_EQ(second.loads.pressure, (std::map<std::string, std::string>{{"lid.top", "10.5"}}));
+  EXPECT_EQ(second.loads.traction, (std::map<std::string, std::string>{{"lid.top", "6 8"}}));
+  EXPECT_EQ(second.gravity, (std::vector<double>{0., -9810.}));
+  EXPECT_TRUE(first.loads.point_forces.empty());
+  EXPECT_EQ(second.loads.point_forces, (Pairs{{"lid.free", "0 7 at 0 3"}}));
+  ASSERT_EQ(scene.contact.pairs.size(), 1u);
+  EXPECT_EQ(scene.contact.pairs[0].slave, "lid.under");
+  EXPECT_EQ(scene.contact.pairs[0].master, "base.over");
+  EXPECT_EQ(scene.contact.pairs[0].parameters.friction, contact::Friction::Coulomb);
+  EXPECT_EQ(scene.contact.pairs[0].parameters.friction_coefficient, "0.2");
+  EXPECT_TRUE(translation.lacking.empty());
+}
+
+TEST(DeckKeywords, LoadsOfEarlierStepsEndWithOpNew)
+{
+  const auto text =
+    squares("*BOUNDARY\nbottom, 1, 2\n",
+            "*DSLOAD\ntop, P, 4\n*CLOAD\n13, 1, 3.\n*BOUNDARY\n\"lower left\", 1, 1, .1\n"
+            "*END STEP\n*STEP\n*STATIC\n*DSLOAD, OP=NEW\ntop, TRVEC, 1., 1., 0.\n"
+            "*CLOAD\n13, 1, 5.\n*BOUNDARY\n\"lower left\", 1, 1, .3\n");
+  const auto translation = deck::translate(text, "deck.inp");
+  const auto scene       = scene_of(translation, text);
+  ASSERT_EQ(scene.load_cases.size(), 2u);
+  const auto &first = scene.load_cases[0].loads, &second = scene.load_cases[1].loads;
+  EXPECT_FALSE(scene.load_cases[1].load_step);
+  EXPECT_EQ(first.pressure.size(), 1u);
+  EXPECT_TRUE(second.pressure.empty());
+  EXPECT_EQ(second.traction, (std::map<std::string, std::string>{{"lid.top", "1 0"}}));
+  EXPECT_EQ(second.point_forces, (Pairs{{"lid.free", "5 0 at 0 3"}}));
+  EXPECT_EQ(first.displacements, (Pairs{{"base.bottom and lower left", "x = 0.1"}}));
+  EXPECT_EQ(second.displacements, (Pairs{{"base.bottom and lower left", "x = 0.3"}}));
+  EXPECT_EQ(scene.bodies[0].supports.at("bottom and lower left"), "y");
+  // A support that holds in one of the steps only has no counterpart.
+  const auto released = squares("", "*BOUNDARY\nbottom, 1\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY, "
+                                    "OP=NEW\nbottom, 2\n");
+  EXPECT_TRUE(lists(deck::translate(released, "deck.inp"), "*BOUNDARY that holds in some steps"));
+}
+
+TEST(DeckKeywords, AmplitudesCountAtTheEndsOfTheSteps)
+{
+  const auto text        = squares("*AMPLITUDE, NAME=up\n0., 0., 2., 1., 4., .5\n",
+                                   "*STATIC\n.1, 3.\n*DSLOAD, AMPLITUDE=Up\ntop, P, 4\n");
+  const auto translation = deck::translate(text, "deck.inp");
+  EXPECT_EQ(scene_of(translation, text).bodies[1].loads.pressure,
+            (std::map<std::string, std::string>{{"top", "3"}}));
+  EXPECT_THROW(deck::translate(squares("", "*DSLOAD, AMPLITUDE=none\ntop, P, 4\n"), "deck.inp"),
+               InputError);
+}
+
+TEST(DeckKeywords, TemperaturesCauseStrainsAboveTheInitialOnes)
+{
+  const std::string heat = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nall, 20.\n";
+  auto              text = squares("*NSET, NSET=all\n1, 2, 3, 4, 5, 6, 11, 12, 13, 14\n" + heat,
+                                   "*TEMPERATURE\nall, 120.\n");
+  text.insert(text.find("*MATERIAL, NAME=rubber"), "*EXPANSION, ZERO=20.\n1.2e-5\n");
+  const auto scene = scene_of(deck::translate(text, "deck.inp"), text);
+  EXPECT_EQ(scene.bodies[0].temperature, "100");
+  EXPECT_EQ(scene.bodies[1].temperature, "100");
+  EXPECT_EQ(scene.materials[1].material.expansion, 1.2e-5);
+  text.replace(text.find("all, 120."), 9, "1, 120.");
+  const auto uneven = deck::translate(text, "deck.inp");
+  EXPECT_TRUE(lists(uneven, "*TEMPERATURE that varies within the body 'base'"));
+}
+
+TEST(DeckKeywords, ComponentsOfTransformsAreAxesOrNormals)
+{
+  // The local x is the global y, the local y the negative global x.
+  const auto text  = squares("*TRANSFORM, NSET=bottom\n0., 1., 0., -1., 0., 0.\n",
+                             "*BOUNDARY\nbottom, 1\n*CLOAD\n2, 2, 5.\n");
+  const auto scene = scene_of(deck::translate(text, "deck.inp"), text);
+  EXPECT_EQ(scene.bodies[0].supports, (std::map<std::string, std::string>{{"bottom", "y"}}));
+  EXPECT_EQ(scene.bodies[0].loads.point_forces, (Pairs{{"bottom", "-5 0 at 1 0"}}));
+  // The radius from (1, 1) is the normal of no face of the bottom.
+  const auto round =
+    squares("*TRANSFORM, NSET=bottom, TYPE=C\n1., 1., 0., 1., 1., 1.\n", "*BOUNDARY\nbottom, 1\n");
+  EXPECT_TRUE(lists(deck::translate(round, "deck.inp"), "*BOUNDARY along axes of *TRANSFORM"));
+}
+
+TEST(DeckKeywords, GapsOfAdjustAndClearanceAreThoseOfThePair)
+{
+  const std::string pair = "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I";
+  const auto        gap  = [](const std::string &text) {
+    const auto translation = deck::translate(text, "deck.inp");
+    EXPECT_TRUE(translation.lacking.empty());
+    return std::stod(scene_of(translation, text).contact.pairs.at(0).parameters.gap);
+  };
+  // The lid is 1 above the base.
+  EXPECT_EQ(gap(squares(pair + "\nunder, over\n", "")), 0.);
+  EXPECT_EQ(gap(squares(pair + ", ADJUST=.5\nunder, over\n", "")), 0.);
+  EXPECT_EQ(gap(squares(pair + ", ADJUST=1.5\nunder, over\n", "")), -1.);
+  EXPECT_EQ(gap(squares(pair + "\nunder, over\n*CLEARANCE, SLAVE=under, MASTER=over, VALUE=.25\n",
+                        "")),
+            -.75);
+}
+
+TEST(DeckKeywords, GeneralContactPairsBodiesWithinReach)
+{
+  const auto text        = squares("*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"
+                                          "*SURFACE INTERACTION, NAME=I\n*FRICTION\n.3\n"
+                                          "*CONTACT PROPERTY ASSIGNMENT\n, , I\n",
+                                   "*DSLOAD\ntop, P, 4\n");
+  const auto translation = deck::translate(text, "deck.inp");
+  const auto scene       = scene_of(translation, text);
+  ASSERT_EQ(scene.contact.pairs.size(), 1u);
+  EXPECT_EQ(scene.contact.pairs[0].parameters.friction_coefficient, "0.3");
+  EXPECT_EQ(scene.contact.pairs[0].parameters.search_distance, 1.);
+  EXPECT_TRUE(replaces(translation, "the pair base and lid with gaps from 1 for general contact"));
+  EXPECT_TRUE(translation.lacking.empty());
+}
+
+TEST(DeckKeywords, OutputIsNotNeededAndPartsOfTheModelAreListed)
+{
+  const auto translation = deck::translate(
+    squares("*TIE, NAME=t\nunder, over\n*EQUATION\n2\n1,1,1.,2,1,-1.\n",
+            "*NODE FILE\nU\n*EL PRINT\nS\n*DLOAD\nlid, CENTRIF, 1., 0., 0., 0., 0., 0., 1.\n"),
+    "deck.inp");
+  EXPECT_EQ(translation.not_needed.rfind("*NODE FILE (line ", 0), 0u);
+  ASSERT_EQ(translation.lacking.size(), 3u);
+  EXPECT_EQ(translation.lacking[0].kind, "tie");
+  EXPECT_EQ(translation.lacking[1].kind, "equation");
+  EXPECT_EQ(translation.lacking[2].kind, "dload");
+}
+
+TEST(DeckKeywords, WrongStructureIsAnError)
+{
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+    {"*STEP\n", "within a step"},
+    {"*END STEP\n*DSLOAD\ntop, P, 4\n", "must stand in a step"},
+    {"*END STEP\n*END STEP\n", "without *STEP"},
+    {"*END STEP\n1, 2\n", "which has no data lines"},
+    {"*END STEP\n*MATERIAL, NAME=steel\n", "occurs twice"},
+    {"*END STEP\n*CONTACT PAIR, INTERACTION=none\nunder, over\n", "no *SURFACE INTERACTION"}};
+  for (const auto &[loads, message] : wrong)
+    try
+      {
+        deck::translate(squares("", loads), "deck.inp");
+        ADD_FAILURE() << loads;
+      }
+    catch (const InputError &error)
+      {
+        EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      }
+}
+
+} // namespace
+} // namespace snug
