@@ -112,6 +112,18 @@ std::vector<DeckBodies::Corners> DeckBodies::faces_of(const std::string &set) co
   return result;
 }
 
+std::vector<DeckBodies::Corners> DeckBodies::other_faces_of(const std::string &set) const
+{
+  std::vector<Corners> result;
+  const auto           found = faces_of_set.find(set);
+  if (found != faces_of_set.end())
+    for (const auto &corners : found->second)
+      if (std::none_of(bodies.begin(), bodies.end(),
+                       [&](const Body &body) { return body.index_of.count(corners) > 0; }))
+        result.push_back(corners);
+  return result;
+}
+
 bool DeckBodies::have_same_faces(const std::string &set, const std::string &other) const
 {
   for (unsigned int b = 0; b < bodies.size(); ++b)

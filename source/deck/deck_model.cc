@@ -185,6 +185,7 @@ DeckModel read_model(const mesh_file::DeckText &text,
   Reading         reading{text, deck, bodies, remarks};
   KeywordReadings readings = material_readings(reading);
   readings.merge(load_readings(reading));
+  readings.merge(rigid_readings(reading));
   readings.merge(contact_readings(reading));
   for (const auto &keyword : text.keywords())
     {

@@ -61,6 +61,8 @@ public:
         return reading.lacks(keyword, " of a surface with itself", line);
       if (upper_case(keyword.option("TYPE")) == "TIED")
         return reading.lacks(keyword, " of type TIED", line);
+      if (read_rigid_pair(keyword, words, line))
+        return;
       const auto slave = reading.surface(words[0], line), master = reading.surface(words[1], line);
       if (!reading.use(keyword, slave, line) || !reading.use(keyword, master, line))
         return;
@@ -190,6 +192,33 @@ private:
   FaceGaps gaps(const DeckModel::Contact &contact) const
   {
     return face_gaps(reading.bodies, slaves(contact), masters(contact), reach(contact));
+  }
+
+  /// Read a pair of a surface and a rigid one. Return whether it is one.
+  bool read_rigid_pair(const Keyword &keyword, const Words &words, const unsigned long line)
+  {
+    for (const auto &[rigid, other] : {std::make_pair(1, 0), std::make_pair(0, 1)})
+      if (is_rigid_surface(reading, words[rigid]))
+        {
+          const auto slave = reading.surface(words[other], line);
+          if (!reading.use(keyword, slave, line))
+            return true;
+          const auto obstacle =
+            obstacle_of(reading, words[rigid], reading.bodies.faces_of(slave), line);
+          if (!obstacle)
+            return true;
+          if (keyword.has("ADJUST"))
+            reading.lacks(keyword, ": the option ADJUST with a rigid body", line);
+          for (const unsigned int s : reading.bodies.bodies_of(slave))
+            {
+              DeckModel::Contact contact{
+                slave, "", s, 0, upper_case(keyword.option("INTERACTION")), 0., line};
+              contact.obstacle = obstacle;
+              model.contacts.push_back(contact);
+            }
+          return true;
+        }
+    return false;
   }
 
   /// ADJUST moves the slave nodes within a distance onto the master. Nodes that are there already

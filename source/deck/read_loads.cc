@@ -22,6 +22,18 @@ unsigned int step_of(const std::vector<DeckModel::Given> &sum)
   return sum.front().step;
 }
 
+/// Return the reference nodes of all rigid bodies, which may follow their supports in the deck.
+std::set<unsigned int> reference_nodes(const Reading &reading)
+{
+  std::set<unsigned int> result;
+  for (const auto &keyword : reading.text.keywords())
+    if (keyword.name == "RIGIDBODY" && keyword.has("REFNODE"))
+      for (const unsigned int node :
+           reading.deck.sets.nodes(keyword.option("REFNODE"), "", keyword.title, keyword.line))
+        result.insert(node);
+  return result;
+}
+
 template <typename Item>
 unsigned int step_of(const Item &item)
 {
@@ -38,6 +50,7 @@ public:
     , dim(reading.bodies.dimension())
     , amplitudes(reading.text)
     , axes(reading.text, reading.deck)
+    , references(reference_nodes(reading))
   {}
 
   void begin_step(const Keyword &keyword)
@@ -70,6 +83,7 @@ public:
       {
         drop_earlier(current().prescribed);
         drop_earlier(current().held_nodes);
+        drop_earlier(current().motions);
       }
     std::set<std::pair<std::string, Words>> known; // lines with the same data are one set
     reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
@@ -82,6 +96,8 @@ public:
       const auto set        = key.empty() ? listed->second : sets.boundary_of_nodes(key);
       const auto components = components_of(keyword, words, line);
       if (!known.emplace(set, Words(words.begin() + 1, words.end())).second)
+        return;
+      if (is_motion(keyword, words, line))
         return;
       const double given = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
       hold(keyword, set, components, {given * factor(keyword), line, n_steps});
@@ -174,13 +190,14 @@ public:
   }
 
 private:
-  Reading                   &reading;
-  const mesh_file::DeckSets &sets;
-  const unsigned int         dim;
-  const Amplitudes           amplitudes;
-  const LocalAxes            axes;
-  unsigned int               n_steps = 0;
-  bool                       in_step = false;
+  Reading                     &reading;
+  const mesh_file::DeckSets   &sets;
+  const unsigned int           dim;
+  const Amplitudes             amplitudes;
+  const LocalAxes              axes;
+  const std::set<unsigned int> references; ///< reference nodes of rigid bodies
+  unsigned int                 n_steps = 0;
+  bool                         in_step = false;
 
   DeckModel::Step &current()
   {
@@ -281,6 +298,30 @@ private:
     for (unsigned int d = 0; d < dim; ++d)
       result.push_back(norm > 0. ? numbers[0] * numbers[1 + d] / norm : 0.);
     return result;
+  }
+
+  /// Read a line of *BOUNDARY of reference nodes of rigid bodies. Return whether it is one.
+  bool is_motion(const Keyword &keyword, const Words &words, const unsigned long line)
+  {
+    if (references.empty())
+      return false;
+    bool has_motion = false;
+    for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
+      if (references.count(node) > 0)
+        {
+          has_motion = true;
+          // ENCASTRE and the like hold all components.
+          const bool   is_number = words[1].find_first_not_of("0123456789") == std::string::npos;
+          const auto   first     = is_number ? to_whole(words[1], line) : 1;
+          const auto   last      = !is_number ? 6
+                                   : words.size() > 2 && !words[2].empty() ? to_whole(words[2], line)
+                                                                           : first;
+          const double value =
+            words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
+          for (auto c = std::max(1ul, first); c <= std::min(6ul, last); ++c)
+            current().motions[{node, c - 1}] = {value * factor(keyword), line, n_steps};
+        }
+    return has_motion;
   }
 
   /// Return the components, from 0, of a line of *BOUNDARY that a model of solids has.

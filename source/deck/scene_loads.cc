@@ -36,6 +36,8 @@ public:
         add_held_nodes(b);
         add_springs(b);
       }
+    for (const auto &obstacle : model.obstacles)
+      result.of_obstacles.push_back(displacement_of(model.rigid_bodies[obstacle.rigid_body]));
     for (unsigned int s = 0; s < steps.size(); ++s)
       {
         std::vector<Entry> of_case;
@@ -233,6 +235,42 @@ private:
         }
     for (const auto &[boundary, sum] : sums)
       add_item(entries, name, full_name(b, boundary) + ": " + to_text(sum, ' '), lines[boundary]);
+  }
+
+  /// Return the displacement of a rigid body, whose reference node must be held without rotations,
+  /// and equally in all steps.
+  Entry displacement_of(const DeckModel::RigidBody &rigid)
+  {
+    const unsigned int  dim = bodies.dimension();
+    std::vector<double> displacement(dim, 0.);
+    Entry               entry{"Displacement"};
+    const auto          needed = [&](const unsigned int c) {
+      return dim == 3 || c < 2 || (c == 5 && model.model != "axisymmetric");
+    };
+    for (const auto *step : steps)
+      for (unsigned int c = 0; c < 6; ++c)
+        {
+          const auto found = step->motions.find({rigid.reference_node, c});
+          if (!needed(c))
+            continue;
+          if (found == step->motions.end())
+            {
+              remarks.lacks("rigid body", "*RIGID BODY that is not held in all components",
+                            rigid.line);
+              return entry;
+            }
+          const double value = found->second.value;
+          if (c >= dim && value != 0.)
+            remarks.lacks("rigid body", "*RIGID BODY that is turned", found->second.line);
+          if (c < dim && step != steps.front() && value != displacement[c])
+            remarks.lacks("step", "*BOUNDARY of a rigid body that moves from step to step",
+                          found->second.line);
+          if (c < dim)
+            displacement[c] = value;
+          entry.add_line(found->second.line);
+        }
+    entry.value = to_text(displacement, ' ');
+    return entry;
   }
 
   /// Return the body that has a node on its boundary, or nothing.

@@ -44,10 +44,16 @@ public:
     if (!loads.gravity.empty())
       write("set Gravity = " + loads.gravity);
     write_case_names();
+    names.clear();
+    for (const auto &obstacle : model.obstacles)
+      names.push_back(obstacle.name);
+    if (!names.empty())
+      write("set Obstacles = " + to_text(names));
     for (const auto *material : used)
       write_material(*material);
     for (unsigned int b = 0; b < bodies.all().size(); ++b)
       write_body(b);
+    write_obstacles();
     write_contacts();
     write_cases();
     return out.str();
@@ -175,6 +181,23 @@ private:
       }
   }
 
+  void write_obstacles()
+  {
+    for (unsigned int i = 0; i < model.obstacles.size(); ++i)
+      {
+        const auto &obstacle = model.obstacles[i];
+        write("\nsubsection Obstacle " + obstacle.name);
+        write_entry({"Shape", obstacle.shape});
+        write_entry({"Point", to_text(obstacle.point, ' ')});
+        write_entry(
+          {obstacle.shape == "plane" ? "Normal" : "Axis", to_text(obstacle.direction, ' ')});
+        if (obstacle.shape != "plane")
+          write_entry({"Radius", to_text(obstacle.radius)});
+        write_entry(loads.of_obstacles[i]);
+        write("end");
+      }
+  }
+
   /// Return the side of a contact: "body.a + body.a and b".
   std::string side(const unsigned int b, const std::set<unsigned int> &faces) const
   {
@@ -187,6 +210,9 @@ private:
   /// Return the pair of a contact: "punch.bottom: base.top".
   std::string sides(const DeckModel::Contact &of) const
   {
+    if (of.obstacle)
+      return side(of.slave_body, bodies.faces_on(of.slave_body, of.slave)) + ": " +
+             model.obstacles[*of.obstacle].name;
     if (of.is_general)
       return side(of.slave_body, of.slave_faces) + ": " + side(of.master_body, of.master_faces);
     return side(of.slave_body, bodies.faces_on(of.slave_body, of.slave)) + ": " +
@@ -209,8 +235,10 @@ private:
     for (const auto &contact : model.contacts)
       {
         write("\nsubsection Pair " + sides(contact));
-        write_entry(contact.is_general ? Entry{"Search distance", to_text(contact.reach)}
-                                       : Entry{"Slave", "first"});
+        if (contact.is_general)
+          write_entry({"Search distance", to_text(contact.reach)});
+        else if (!contact.obstacle)
+          write_entry({"Slave", "first"});
         if (contact.gap != 0.)
           write_entry({"Gap", to_text(contact.gap)});
         for (const auto &interaction : model.interactions)

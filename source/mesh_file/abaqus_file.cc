@@ -286,7 +286,14 @@ private:
       {
         // The cell is copied, because push_back() may move the elements.
         const MeshFile::Element cell = mesh.elements[element];
-        if (words.size() > 1)
+        const auto              side = words.size() > 1 ? upper_case(words[1]) : "";
+        if (side == "SPOS" || side == "SNEG")
+          {
+            // A shell or a rigid element is a face itself.
+            mesh.elements.push_back(cell);
+            mesh.elements.back().groups = {sets.spelling.at(key)};
+          }
+        else if (words.size() > 1)
           mesh.elements.push_back(
             face_of(cell, face_number(cell, words[1], 'S'), sets.spelling.at(key)));
         else

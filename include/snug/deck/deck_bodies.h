@@ -47,6 +47,10 @@ public:
   /// Return the corners of all outer faces of bodies that belong to the set.
   std::vector<Corners> faces_of(const std::string &set) const;
 
+  /// Return the sorted corners of the faces of a set that belong to no cell, as those of rigid
+  /// bodies.
+  std::vector<Corners> other_faces_of(const std::string &set) const;
+
   /// Return whether two sets have the same faces, or common ones. Both must have been used before.
   bool have_same_faces(const std::string &set, const std::string &other) const;
   bool have_common_faces(const std::string &set, const std::string &other) const;

@@ -69,6 +69,8 @@ struct DeckModel
     std::map<std::pair<unsigned int, unsigned int>, std::vector<Given>> point_forces;
     std::vector<Gravity>                                                gravities;
     std::map<unsigned int, Given>                                       temperatures; ///< by node
+    /// reference node and component, 0 to 5 with rotations -> displacement of a rigid body
+    std::map<std::pair<unsigned int, unsigned int>, Given> motions;
   };
 
   /// A spring between a node and the ground, along an axis [force / length].
@@ -86,6 +88,26 @@ struct DeckModel
     double        friction = 0.;
   };
 
+  /// A rigid body: faces that belong to no cell, or an analytical surface, and its reference node.
+  struct RigidBody
+  {
+    unsigned int                        reference_node;
+    std::set<std::vector<unsigned int>> faces;   ///< sorted corners
+    std::string                         surface; ///< name of the analytical surface, or ""
+    unsigned long                       line;
+  };
+
+  /// A rigid body as an obstacle. Vectors have one number per dimension.
+  struct Obstacle
+  {
+    std::string         name;
+    std::string         shape;     ///< plane, sphere, hollow cylinder, ...
+    std::vector<double> point;     ///< of the plane or the axis, or the centre [length]
+    std::vector<double> direction; ///< normal of a plane, axis of a cylinder; empty for spheres
+    double              radius;    ///< [length]
+    unsigned int        rigid_body;
+  };
+
   /// A contact of two sets of faces on one body each; the set "" are all outer faces.
   struct Contact
   {
@@ -95,9 +117,10 @@ struct DeckModel
     double        gap;         ///< added to that of the mesh [length]
     unsigned long line;
     /// general contact: any side may be the slave side, and only faces within reach take part
-    bool                   is_general  = false;
-    std::set<unsigned int> slave_faces = {}, master_faces = {};
-    double                 reach = 0.; ///< [length]
+    std::optional<unsigned int> obstacle    = {}; ///< master side, instead of a body
+    bool                        is_general  = false;
+    std::set<unsigned int>      slave_faces = {}, master_faces = {};
+    double                      reach = 0.; ///< [length]
   };
 
   std::vector<Material>               materials;
@@ -109,6 +132,8 @@ struct DeckModel
   std::vector<Spring>                 springs;
   std::vector<Interaction>            interactions;
   std::vector<Contact>                contacts;
+  std::vector<RigidBody>              rigid_bodies;
+  std::vector<Obstacle>               obstacles;
   std::optional<double>               thickness;
   std::string                         model  = "solid";
   unsigned int                        degree = 1;

@@ -62,6 +62,20 @@ KeywordReadings material_readings(Reading &reading);
 /// Return the readings of *BOUNDARY, loads and steps.
 KeywordReadings load_readings(Reading &reading);
 
+/// Return the readings of rigid bodies.
+KeywordReadings rigid_readings(Reading &reading);
+
+/// Return whether the surface @p word consists of faces of rigid bodies, or is analytical.
+bool is_rigid_surface(const Reading &reading, const std::string &word);
+
+/// Return the obstacle that is the rigid surface @p word, seen from the slave faces, or nothing if
+/// no rigid body has this surface. A rigid surface that is no plane, cylinder or sphere is noted as
+/// lacking.
+std::optional<unsigned int> obstacle_of(Reading                                &reading,
+                                        const std::string                      &word,
+                                        const std::vector<DeckBodies::Corners> &slave,
+                                        unsigned long                           line);
+
 /// Return the readings of contact and friction.
 KeywordReadings contact_readings(Reading &reading);
 } // namespace snug::deck

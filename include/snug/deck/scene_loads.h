@@ -15,9 +15,10 @@ struct SceneLoads
     std::vector<Entry> entries;
   };
 
-  std::vector<std::vector<Entry>> of_bodies; ///< entries of each body
-  std::string                     gravity;   ///< of the scene
-  std::vector<LoadCase>           cases;     ///< of a deck with several steps
+  std::vector<std::vector<Entry>> of_bodies;    ///< entries of each body
+  std::vector<Entry>              of_obstacles; ///< displacements
+  std::string                     gravity;      ///< of the scene
+  std::vector<LoadCase>           cases;        ///< of a deck with several steps
 };
 
 /**

@@ -129,6 +129,53 @@ TEST(DeckKeywords, GeneralContactPairsBodiesWithinReach)
   EXPECT_TRUE(translation.lacking.empty());
 }
 
+TEST(DeckKeywords, RigidSurfacesAreObstacles)
+{
+  const std::string ground =
+    "*NODE\n101, -1., -1.\n102, 1., -1.\n103, 5., -1.\n199, 0., -5.\n"
+    "*ELEMENT, TYPE=R2D2, ELSET=ground\n101, 101, 102\n102, 102, 103\n"
+    "*SURFACE, NAME=floor\nground, SPOS\n*SURFACE, NAME=low\nbase, S1\n"
+    "*RIGID BODY, ELSET=ground, REF NODE=199\n*SURFACE INTERACTION, NAME=I\n*FRICTION\n.1\n"
+    "*CONTACT PAIR, INTERACTION=I\nlow, floor\n";
+  const auto text        = squares(ground, "*BOUNDARY\n199, 1, 6\n199, 2, 2, .3\n");
+  const auto translation = deck::translate(text, "deck.inp");
+  const auto scene       = scene_of(translation, text);
+  EXPECT_TRUE(translation.lacking.empty());
+  ASSERT_EQ(scene.obstacles.size(), 1u);
+  EXPECT_EQ(scene.contact.pairs.at(0).slave, "base.low");
+  EXPECT_EQ(scene.contact.pairs[0].master, "rigid-1");
+  EXPECT_NE(translation.text.find("set Normal = 0 1"), std::string::npos) << translation.text;
+  EXPECT_NE(translation.text.find("set Displacement = 0 0.3"), std::string::npos);
+  // A rigid body that a force moves, or that turns, has no counterpart.
+  EXPECT_TRUE(lists(deck::translate(squares(ground, "*BOUNDARY\n199, 1, 1\n"), "deck.inp"),
+                    "*RIGID BODY that is not held in all components"));
+  EXPECT_TRUE(
+    lists(deck::translate(squares(ground, "*BOUNDARY\n199, 1, 5\n199, 6, 6, .1\n"), "deck.inp"),
+          "*RIGID BODY that is turned"));
+}
+
+TEST(DeckKeywords, AnalyticalSurfacesAreLinesOrCircles)
+{
+  const auto deck_with = [](const std::string &segments) {
+    return squares("*NODE\n199, 0., -5.\n*SURFACE, NAME=low\nbase, S1\n"
+                   "*SURFACE, TYPE=SEGMENTS, NAME=tool\n" +
+                     segments +
+                     "*RIGID BODY, ANALYTICAL SURFACE=tool, REF NODE=199\n"
+                     "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nlow, tool\n",
+                   "*BOUNDARY\n199, 1, 6\n");
+  };
+  const auto round = deck::translate(deck_with("START, 2., -3.\nCIRCL, 0., -3., 1., -3.\n"), "d");
+  EXPECT_NE(round.text.find("set Shape = cylinder"), std::string::npos) << round.text;
+  EXPECT_NE(round.text.find("set Radius = 1\n"), std::string::npos);
+  EXPECT_NE(round.text.find("set Point = 1 -3"), std::string::npos);
+  const auto hollow = deck::translate(deck_with("START, 9., 0.\nCIRCL, -7., 0., 1., 0.\n"), "d");
+  EXPECT_NE(hollow.text.find("set Shape = hollow cylinder"), std::string::npos) << hollow.text;
+  const auto line = deck::translate(deck_with("START, 9., -2.\nLINE, -7., -2.\n"), "d");
+  EXPECT_NE(line.text.find("set Normal = 0 1"), std::string::npos) << line.text;
+  const auto corner = deck_with("START, 9., -2.\nLINE, -7., -2.\nLINE, -7., 9.\n");
+  EXPECT_TRUE(lists(deck::translate(corner, "d"), "no plane, cylinder or sphere"));
+}
+
 TEST(DeckKeywords, OutputIsNotNeededAndPartsOfTheModelAreListed)
 {
   const auto translation = deck::translate(
