@@ -29,8 +29,10 @@ void assign(const Entries::Description &entry, const Origins &origins, std::stri
   catch (const std::exception &)
     {}
   throw origins.error(entry.path(), text,
-                      "must be " + entry.form.allowed + did_you_mean(text, choices));
+                      "must be " + entry.form.allowed + did_you_mean(text, choices) +
+                        (is_whole ? "" : decimal_point_hint(text)));
 }
+  const bool is_whole = entry.form.allowed.find("whole number") != std::string::npos;
 
 /// Return the error of the numbers of an entry; "" if there is no error.
 std::string

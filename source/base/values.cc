@@ -1,5 +1,6 @@
 #include <snug/base/values.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -18,6 +19,21 @@ auto number(const std::string &text, const char *digits, const Read &read)
   if (text.empty() || text.find_first_not_of(digits) != std::string::npos || *end != '\0' ||
       errno != 0)
     throw std::invalid_argument("no number");
+  return result;
+}
+
+/// Return @p text without what is within parentheses.
+std::string outside_of_parentheses(const std::string &text)
+{
+  std::string result;
+  int         depth = 0;
+  for (const char c : text)
+    {
+      depth -= c == ')';
+      if (depth <= 0)
+        result += c;
+      depth += c == '(';
+    }
   return result;
 }
 } // namespace
@@ -59,9 +75,33 @@ std::vector<std::string> components(const std::string &text)
   return result;
 }
 
+std::string decimal_point_hint(const std::string &text)
+{
+  const std::string digits = "0123456789", line = outside_of_parentheses(text);
+  for (auto i = line.find_first_of(digits); i != std::string::npos;)
+    {
+      const auto  end    = std::min(line.find_first_not_of(digits + ".,", i), line.size());
+      std::string number = line.substr(i, end - i);
+      // A comma before a blank separates numbers.
+      if (number.back() == ',' && (end == line.size() || line[end] == ' '))
+        number.pop_back();
+      // 1,2,3 and 1,2.5 are lists.
+      const auto comma = number.find_first_of(",.");
+      if (comma != std::string::npos && comma == number.find_last_of(",.") && number[comma] == ',')
+        return "; write " + number.substr(0, comma) + "." + number.substr(comma + 1) +
+               " instead of " + number;
+      i = line.find_first_of(digits, end);
+    }
+  return "";
+}
+
 std::vector<std::string> vector_components(const std::string &text)
 {
   const auto parts = split(text, ',');
+  // Lists separate all of their numbers alike, and nobody writes a zero with a sign.
+  if ((outside_of_parentheses(text).find(", ") != std::string::npos || text.rfind("-0,", 0) == 0) &&
+      !decimal_point_hint(text).empty())
+    throw std::invalid_argument("a comma may be a decimal point");
   return parts.size() > 1 ? parts : components(text);
 }
 

@@ -90,14 +90,59 @@ std::set<std::string> identifiers(const std::string &text)
   return result;
 }
 
-/// Return the error of a formula of @p variables with the message of the parser.
-InputError no_formula(const std::string           &entry,
-                      const std::string           &text,
-                      const std::string           &variables,
-                      const dealii::ExceptionBase &error)
+/// Return whether a comma is outside of the parentheses of a function. For muParser, such commas
+/// separate expressions, and the value of "0,5" is the last one, 5.
+bool has_stray_comma(const std::string &text)
 {
-  return bad_entry(entry, text,
-                   "must be a formula of " + variables + " (" + parser_message(error) + ")");
+  std::vector<bool> is_function(1, false); // one per open parenthesis
+  char              before = ' ';
+  for (const char c : text)
+    {
+      if (c == '(')
+        is_function.push_back(std::isalnum(static_cast<unsigned char>(before)) != 0 ||
+                              before == '_');
+      else if (c == ')' && is_function.size() > 1)
+        is_function.pop_back();
+      else if (c == ',' && !is_function.back())
+        return true;
+      if (std::isspace(static_cast<unsigned char>(c)) == 0)
+        before = c;
+    }
+  return false;
+}
+
+/// Make @p parser the parser of the formula @p text of @p variables, with the time as the last
+/// variable if @p has_time. Return what is wrong with the formula, or nothing.
+template <int dim>
+std::optional<std::string> compile(dealii::FunctionParser<dim> &parser,
+                                   const std::string           &variables,
+                                   const std::string           &text,
+                                   const bool                   has_time = false)
+{
+  if (has_stray_comma(text))
+    return "a comma may only separate the arguments of a function" + decimal_point_hint(text);
+  try
+    {
+      const SilentErrors guard;
+      parser.initialize(variables, text, constants, has_time);
+      // The formula is evaluated once, because muParser finds unknown names only on evaluation.
+      parser.value(dealii::Point<dim>());
+      return {};
+    }
+  catch (const dealii::ExceptionBase &error)
+    {
+      return parser_message(error);
+    }
+}
+
+/// Throw if there is an @p error of a formula of @p variables.
+void require_compiled(const std::string                &entry,
+                      const std::string                &text,
+                      const std::string                &variables,
+                      const std::optional<std::string> &error)
+{
+  if (error)
+    throw bad_entry(entry, text, "must be a formula of " + variables + " (" + *error + ")");
 }
 
 /// For 1/0 or sqrt(-1), muParser returns inf or nan without an error. Values beyond 1e60 would
@@ -119,18 +164,11 @@ void require_finite(const std::string            &entry,
 std::optional<double> constant_value(const std::string &text)
 {
   dealii::FunctionParser<1> parser;
-  try
-    {
-      const SilentErrors guard;
-      // The parser needs a variable. Its name must not occur in users' formulas.
-      parser.initialize("no_variable", text, constants);
-      const double value = parser.value(dealii::Point<1>());
-      return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-    }
-  catch (const dealii::ExceptionBase &)
-    {
-      return std::nullopt;
-    }
+  // The parser needs a variable. Its name must not occur in users' formulas.
+  if (compile(parser, "no_variable", text))
+    return std::nullopt;
+  const double value = parser.value(dealii::Point<1>());
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 template <int dim>
@@ -138,17 +176,7 @@ Formula<dim>::Formula(const std::string &entry, const std::string &text)
   : entry(entry), text(text), parser(std::make_unique<dealii::FunctionParser<dim>>())
 {
   const std::string variables = dim == 2 ? "x,y" : "x,y,z";
-  try
-    {
-      const SilentErrors guard;
-      parser->initialize(variables, text, constants);
-      // The formula is evaluated once, because muParser finds unknown names only on evaluation.
-      parser->value(dealii::Point<dim>());
-    }
-  catch (const dealii::ExceptionBase &error)
-    {
-      throw no_formula(entry, text, variables, error);
-    }
+  require_compiled(entry, text, variables, compile(*parser, variables, text));
 }
 
 // The destructor is defined in this file, because dealii::FunctionParser is complete only here.
@@ -229,17 +257,7 @@ VariableFormula::VariableFormula(const std::string              &entry,
   for (unsigned int k = 0; k < 4; ++k)
     names += (k == 0 ? "" : ",") +
              (k < contained.size() ? variables[contained[k]] : "no_variable_" + std::to_string(k));
-  try
-    {
-      const SilentErrors guard;
-      parser->initialize(names, text, constants, true);
-      // The formula is evaluated once, because muParser finds unknown names only on evaluation.
-      parser->value(dealii::Point<3>());
-    }
-  catch (const dealii::ExceptionBase &error)
-    {
-      throw no_formula(entry, text, to_text(variables), error);
-    }
+  require_compiled(entry, text, to_text(variables), compile(*parser, names, text, true));
 }
 
 VariableFormula::~VariableFormula() = default;

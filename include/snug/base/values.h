@@ -35,7 +35,12 @@ std::vector<std::string> split(const std::string &text, char separator);
 std::vector<std::string> components(const std::string &text);
 
 /// Return components separated by commas or, if there is no comma, by blanks.
+/// @throws std::invalid_argument for "0,5, 1" and "-0,5", where a comma may be a decimal point.
 std::vector<std::string> vector_components(const std::string &text);
+
+/// Return "; write 0.15 instead of 0,15" for the first number of @p text that may have a decimal
+/// comma, or "" if there is none. Commas within parentheses separate arguments.
+std::string decimal_point_hint(const std::string &text);
 
 /// Return a number and its noun: "1 face", "2 faces". @p plural is the noun for all numbers except
 /// 1; empty: @p noun with an s.

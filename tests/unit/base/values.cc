@@ -63,6 +63,22 @@ TEST(Values, NumbersOfOtherFormsAreRefused)
   EXPECT_FALSE(refuses<std::vector<double>>("2, 0"));
 }
 
+TEST(Values, DecimalCommasAreRefusedWhereTheyCanBe)
+{
+  for (const std::string text : {"0,15", "1,5e3", "-0,1"})
+    EXPECT_TRUE(refuses<double>(text)) << text;
+  for (const std::string text : {"0,5, 1", "1, 2,5", "-0,1, 0,1", "0,5 0,5", "-0,1"})
+    EXPECT_TRUE(refuses<std::vector<double>>(text)) << text;
+  for (const std::string text : {"1,2", "1, 2", "1,2,3", "0.5,1", "1,0.5", "-0, 1"})
+    EXPECT_FALSE(refuses<std::vector<double>>(text)) << text;
+  EXPECT_EQ(decimal_point_hint("0,15"), "; write 0.15 instead of 0,15");
+  EXPECT_EQ(decimal_point_hint("top: 0 0 -12,5"), "; write 12.5 instead of 12,5");
+  EXPECT_EQ(decimal_point_hint("0, 0,5*x"), "; write 0.5 instead of 0,5");
+  for (const std::string text :
+       {"", "1, 2", "1,2,3", "max(0,5)", "0.5,1", "x,1", "1,", "0,0,-2*max(x, y)"})
+    EXPECT_EQ(decimal_point_hint(text), "") << text;
+}
+
 TEST(Values, SeparatorsWithinParenthesesDoNotSeparate)
 {
   using Parts = std::vector<std::string>;

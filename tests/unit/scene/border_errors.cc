@@ -1,0 +1,28 @@
+#include "error_checks.h"
+
+TEST(BorderErrors, DecimalCommas)
+{
+  const std::string hint = "; write 0.15 instead of 0,15";
+  for (const std::string entry :
+       {"Body punch/Poisson's ratio", "Contact/Search distance", "Contact/Gap", "Body punch/Force",
+        "Body punch/Pressure", "Body punch/Traction", "Body punch/Displacement",
+        "Body punch/Temperature", "Body punch/Springs", "Body punch/Refine where",
+        "Optimization/Constraints", "Accuracy/Target"})
+    for (const std::string value : {"0,15", "top: 0,15", "top: 0 0 0,15", "top: z = 0,15",
+                                    "0, 0, 0,15", "volume: <= 0,15", "volume: 0,15 %"})
+      {
+        const auto message = error_of({entry + "=" + value});
+        EXPECT_TRUE(has(message, "entry '" + entry + "' = '" + value + "': ")) << message;
+        EXPECT_TRUE(has(message, hint)) << message;
+      }
+  expect_error({"Body punch/Shift", "0, 0,15", hint});
+  expect_error({"Body punch/Body force", "0, 0,15*x", hint});
+  expect_error({"Body punch/Shift", "-0,15", "; write 0.15 instead of 0,15"});
+  EXPECT_TRUE(has(error_of({"Body punch/Warp=0; 0; 0,15*x"}), hint + ")"));
+  expect_error({"Contact/Gap", "(0,15)", "a comma may only separate the arguments of a function"});
+  expect_error({"Contact/Gap", "min(x, (0,15))", "a comma may only"});
+  expect_error({"Contact/Gap", "2,x", "a comma may only"});
+  for (const std::string formula :
+       {"min(0,5)", "max (x, min(y,2))", "pow(x,2)", "if(x>0, 1, -y)", "atan2(y,x)"})
+    EXPECT_EQ(error_of({"Contact/Gap=" + formula}), "") << formula;
+}
