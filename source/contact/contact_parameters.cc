@@ -59,7 +59,7 @@ bool PairParameters::has_friction() const
   const char *const text    = resistance().c_str();
   char             *end     = nullptr;
   const bool        is_zero = std::strtod(text, &end) == 0. && end != text && *end == '\0';
-  return friction != Friction::none && !is_zero;
+  return friction != Friction::none && !resistance().empty() && !is_zero;
 }
 
 void PairParameters::declare(Entries &entries)
@@ -92,11 +92,11 @@ void PairParameters::declare(Entries &entries)
   entries.add("Friction coefficient", friction_coefficient,
               allowed("a formula of x, y and, in 3D, z"),
               "The ratio of the largest tangential force to the normal force, 0 or above, at the "
-              "reference position of each slave node. For Coulomb only.");
+              "reference position of each slave node. For Coulomb, which needs this entry.");
   entries.add(
     "Friction bound", friction_bound, allowed("a formula of x, y and, in 3D, z"),
     "The largest tangential traction, 0 or above, at the reference position of each slave "
-    "node. For Tresca only. Units: force/length^2.");
+    "node. For Tresca, which needs this entry. Units: force/length^2.");
 }
 
 void PairParameters::check(const SectionCheck &section) const
@@ -105,9 +105,10 @@ void PairParameters::check(const SectionCheck &section) const
                     largest_angle == PairParameters().largest_angle,
                   "Largest angle", to_text(largest_angle), "must be at most 60 for mortar");
   geometry::require_formula(section, "Gap", gap, gap);
-  geometry::require_formula(section, "Friction coefficient", friction_coefficient,
-                            friction_coefficient);
-  geometry::require_formula(section, "Friction bound", friction_bound, friction_bound);
+  for (const auto &[entry, limit] : TextPairs{{"Friction coefficient", friction_coefficient},
+                                              {"Friction bound", friction_bound}})
+    if (!limit.empty())
+      geometry::require_formula(section, entry, limit, limit);
 }
 
 void ContactParameters::declare(Entries &entries)

@@ -43,8 +43,8 @@ void check_sides(const Scene                             &scene,
                     "'" + face + "' must not be paired with itself");
 }
 
-/// Check that limits of friction are set for pairs with the law that reads them. Pairs may inherit
-/// a limit that they do not read.
+/// Check that limits of friction are set for pairs with the law that reads them, and for no other
+/// pairs. Pairs may inherit a limit that they do not read.
 void check_limits(const Scene            &scene,
                   const Origins          &origins,
                   const contact::Friction law,
@@ -53,17 +53,23 @@ void check_limits(const Scene            &scene,
 {
   const auto       &pairs         = scene.contact.pairs;
   const std::string default_limit = scene.contact.defaults.*limit;
-  const std::string allowed       = "must be 0 unless Friction = " + to_text(law);
+  const std::string allowed       = "must be left out unless Friction = " + to_text(law);
   const auto        reads = [law](const contact::PairParameters &of) { return of.friction == law; };
   SectionCheck("Contact", origins, scene.dimension)
-    .require(default_limit == "0" || reads(scene.contact.defaults) ||
+    .require(default_limit.empty() || default_limit == "0" || reads(scene.contact.defaults) ||
                std::any_of(pairs.begin(), pairs.end(),
                            [&](const auto &pair) { return reads(pair.parameters); }),
              entry, default_limit, allowed);
   for (const auto &pair : pairs)
-    SectionCheck(pair.section(), origins, scene.dimension)
-      .require(reads(pair.parameters) || pair.parameters.*limit == default_limit, entry,
-               pair.parameters.*limit, allowed);
+    {
+      const std::string &own = pair.parameters.*limit;
+      SectionCheck(pair.section(), origins, scene.dimension)
+        .require(reads(pair.parameters) || own == default_limit, entry, own, allowed);
+      SectionCheck(reads(scene.contact.defaults) ? "Contact" : pair.section(), origins,
+                   scene.dimension)
+        .require(!reads(pair.parameters) || !own.empty(), "Friction", to_text(law),
+                 "needs a '" + entry + "' for '" + pair.slave + ": " + pair.master + "'");
+    }
 }
 } // namespace
 

@@ -73,12 +73,12 @@ struct PairParameters
   /// maximum distance of slave nodes with a row from the master [length]; 0: no limit
   double search_distance = 0.;
   /// maximum angle between the slave's normal and the row's normal [degrees]
-  double      largest_angle        = 90.;
-  std::string gap                  = "0";   ///< formula in x, y, z that is added to gaps [length]
-  bool        interference         = false; ///< true: initial overlap is intended
-  Friction    friction             = Friction::none;
-  std::string friction_coefficient = "0"; ///< formula in x, y, z; read by Coulomb
-  std::string friction_bound       = "0"; ///< formula in x, y, z; read by Tresca [force/length^2]
+  double      largest_angle = 90.;
+  std::string gap           = "0";   ///< formula in x, y, z that is added to gaps [length]
+  bool        interference  = false; ///< true: initial overlap is intended
+  Friction    friction      = Friction::none;
+  /// formulas in x, y, z, read by Coulomb and by Tresca [force/length^2]; empty: not given
+  std::string friction_coefficient, friction_bound;
 
   /// Return the formula that the friction law reads.
   const std::string &resistance() const

@@ -26,3 +26,21 @@ TEST(BorderErrors, DecimalCommas)
        {"min(0,5)", "max (x, min(y,2))", "pow(x,2)", "if(x>0, 1, -y)", "atan2(y,x)"})
     EXPECT_EQ(error_of({"Contact/Gap=" + formula}), "") << formula;
 }
+
+TEST(BorderErrors, FrictionNeedsItsLimit)
+{
+  const std::string pair = "Pair punch.bottom: foundation.top/";
+  for (const std::string law : {"Coulomb", "Tresca"})
+    {
+      const std::string limit = law == "Coulomb" ? "Friction coefficient" : "Friction bound";
+      expect_error({"Contact/Friction", law, "needs a '" + limit + "' for 'punch.bottom: foundat"});
+      expect_error({pair + "Friction", law, "needs a '" + limit + "'"});
+      EXPECT_EQ(error_of({"Contact/Friction=" + law, "Contact/" + limit + "=0.3"}), "");
+      // The pair has the limit that the default lacks, and no friction.
+      EXPECT_EQ(error_of({"Contact/Friction=" + law, pair + limit + "=0"}), "");
+      EXPECT_EQ(error_of({"Contact/Friction=" + law, pair + "Friction=none"}), "");
+    }
+  // Earlier versions printed 0 for a limit that is not given.
+  EXPECT_EQ(error_of({"Contact/Friction coefficient=0", "Contact/Friction bound=0"}), "");
+  expect_error({"Contact/Friction coefficient", "0.1", "left out unless Friction = Coulomb"});
+}
