@@ -1,3 +1,4 @@
+#include <snug/optimization/limit.h>
 #include <snug/response/response.h>
 #include <snug/scene/check.h>
 
@@ -84,6 +85,34 @@ Parameters require_response(const Scene        &scene,
                   entry, value, "'" + name + "' is zero: its bodies have no 'Density'");
   return *response;
 }
+/// Return whether a constraint keeps a volume or mass of @p shapes at least as large as in the
+/// first design.
+bool keeps_material(const Scene &scene, const std::string &name, const std::string &text)
+{
+  const auto response = *response_called(scene, constraint_name(scene, name).response);
+  const auto limit    = optimization::read_limit(text);
+  const auto is_of    = [&](const auto &shape) {
+    return response.body.empty() || split_face(shape.face).first == response.body;
+  };
+  return (response.quantity == "volume" || response.quantity == "mass") && limit.of_initial &&
+         limit.value >= 1. && limit.side != optimization::Limit::Side::at_most &&
+         std::any_of(scene.shapes.begin(), scene.shapes.end(), is_of);
+}
+
+/// Check that the shapes may move: faces that move only into the bodies, from a first design that
+/// has not moved, cannot keep the volume.
+void check_freedom(const Scene &scene, const Origins &origins)
+{
+  const bool removes = std::all_of(scene.shapes.begin(), scene.shapes.end(), [](const auto &shape) {
+    return shape.only_remove && std::all_of(shape.initial.begin(), shape.initial.end(),
+                                            [](const double of) { return of == 0.; });
+  });
+  for (const auto &[name, text] : scene.optimization.constraints)
+    if (scene.task == Task::optimize && removes && keeps_material(scene, name, text))
+      throw origins.error(scene.shapes.front().path("Only remove"), "true",
+                          "must be false with 'Optimization/Constraints' = '" + name + ": " + text +
+                            "', which only the first design satisfies");
+}
 } // namespace
 
 void check_responses(const Scene &scene, const Origins &origins)
@@ -116,6 +145,7 @@ void check_responses(const Scene &scene, const Origins &origins)
                         name + "' or 'worst of " + name + "'");
     }
   optimization.check(section);
+  check_freedom(scene, origins);
   const SectionCheck accuracy("Accuracy", origins, scene.dimension);
   for (const auto &target : scene.accuracy.targets)
     require_response(scene, accuracy, "Target", to_text(scene.accuracy.targets), target.first);

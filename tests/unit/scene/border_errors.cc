@@ -44,3 +44,18 @@ TEST(BorderErrors, FrictionNeedsItsLimit)
   EXPECT_EQ(error_of({"Contact/Friction coefficient=0", "Contact/Friction bound=0"}), "");
   expect_error({"Contact/Friction coefficient", "0.1", "left out unless Friction = Coulomb"});
 }
+
+TEST(BorderErrors, ShapesWithoutFreedom)
+{
+  const std::string remove = "Shape/Only remove";
+  for (const std::string limit : {"initial", "= initial", ">= initial", ">= 1.2 initial"})
+    expect_error({remove, "true", "'volume: " + limit + "', which only the first design"},
+                 {"Optimization/Constraints=volume: " + limit});
+  for (const std::string limit : {"<= initial", ">= 0.9 initial", "= 0.9 initial", ">= 2"})
+    EXPECT_EQ(error_of({remove + "=true", "Optimization/Constraints=volume: " + limit}), "");
+  EXPECT_EQ(error_of({remove + "=true", "Shape/Initial=-0.1"}), "");
+  // the volume of a body without a shape
+  EXPECT_EQ(error_of({remove + "=true", "Responses=v", "Response v/Quantity=volume",
+                      "Response v/Body=punch", "Optimization/Constraints=v: initial"}),
+            "");
+}
