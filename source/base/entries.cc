@@ -14,6 +14,9 @@ Form in_range(const std::function<bool(double)> &contains, const std::string &ra
   return form;
 }
 
+/// Entries by the names that they had in earlier versions, see CHANGELOG.md.
+const TextMap former_names = {{"Mesh file", "File"}};
+
 /// Assign @p text, where the former name of a choice stands for its name.
 /// @throws InputError unless the text has the form of the entry.
 void assign(const Entries::Description &entry, const Origins &origins, std::string text)
@@ -28,11 +31,11 @@ void assign(const Entries::Description &entry, const Origins &origins, std::stri
     }
   catch (const std::exception &)
     {}
+  const bool is_whole = entry.form.allowed.find("whole number") != std::string::npos;
   throw origins.error(entry.path(), text,
                       "must be " + entry.form.allowed + did_you_mean(text, choices) +
                         (is_whole ? "" : decimal_point_hint(text)));
 }
-  const bool is_whole = entry.form.allowed.find("whole number") != std::string::npos;
 
 /// Return the error of the numbers of an entry; "" if there is no error.
 std::string
@@ -192,6 +195,10 @@ void Entries::reject_unknown(const Statement &statement) const
                      "'Bodies', 'Materials' or 'Shapes')");
   if (statement.name.empty())
     return;
+  const auto former = former_names.find(statement.name);
+  if (former != former_names.end() &&
+      std::find(names.begin(), names.end(), former->second) != names.end())
+    elsewhere = "; it was renamed to '" + former->second + "'";
   throw InputError(origin + "unknown entry '" + quotable(statement.path()) + "' = '" +
                    quotable(statement.value) + "'" +
                    (elsewhere.empty() ? did_you_mean(statement.name, names) : elsewhere));

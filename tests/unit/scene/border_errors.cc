@@ -27,6 +27,14 @@ TEST(BorderErrors, DecimalCommas)
     EXPECT_EQ(error_of({"Contact/Gap=" + formula}), "") << formula;
 }
 
+TEST(BorderErrors, RenamedEntries)
+{
+  EXPECT_TRUE(has(error_of({"Body punch/Mesh file=a.msh"}),
+                  "unknown entry 'Body punch/Mesh file' = 'a.msh'; it was renamed to 'File'"));
+  // The section has no entry of the new name.
+  EXPECT_FALSE(has(error_of({"Contact/Mesh file=a.msh"}), "renamed"));
+}
+
 TEST(BorderErrors, FrictionNeedsItsLimit)
 {
   const std::string pair = "Pair punch.bottom: foundation.top/";
