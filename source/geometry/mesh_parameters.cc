@@ -86,11 +86,12 @@ void declare_file(Entries &entries, BodyMeshParameters &mesh)
     "The sets of the mesh file that are boundaries of the body: sets of faces, and node "
     "sets of Abaqus, which stand for the faces whose nodes are all in the set. Faces in "
     "the sets a and b are the boundary 'a and b'. An empty list means all sets of faces.");
-  entries.add(
-    "Boundary names", mesh.boundary_numbers,
-    allowed("a list 'group: name, ...' of different groups"),
-    "The names of boundaries by the number or name of their group of faces in the mesh "
-    "file. Groups without a name need this entry, such as those of Gmsh: '1: bottom, 7: bore'.");
+  entries.add("Boundary names", mesh.boundary_numbers,
+              allowed("a list 'group: name, ...' of different groups"),
+              "The names of boundaries by the number or name of their group of faces in the mesh "
+              "file: '1: bottom, 7: bore'. A group of Gmsh without a name, such as group 7, is "
+              "called group-7 "
+              "otherwise.");
   entries.add(
     "Surface", mesh.surfaces,
     with_meanings(

@@ -44,11 +44,7 @@ std::vector<std::pair<FaceNames::Corners, std::string>> FaceNames::named() const
       std::string joined;
       for (const auto &set : parameters.boundary_sets)
         if (std::find(names.begin(), names.end(), set) != names.end())
-          {
-            const auto given = parameters.boundary_numbers.find(set);
-            joined += (joined.empty() ? "" : " and ") +
-                      (given == parameters.boundary_numbers.end() ? set : given->second);
-          }
+          joined += (joined.empty() ? "" : " and ") + renamed(set);
       if (joined.empty())
         joined = names.front();
       result.emplace_back(face, joined);
@@ -56,17 +52,23 @@ std::vector<std::pair<FaceNames::Corners, std::string>> FaceNames::named() const
   return result;
 }
 
+/// Return the name that 'Boundary names' gives to a group. The entry may contain the number of a
+/// group without a name.
+std::string FaceNames::renamed(const std::string &group) const
+{
+  const bool is_unnamed = group.rfind(unnamed_group, 0) == 0;
+  for (const auto &key : {group, group.substr(is_unnamed ? unnamed_group.size() : 0)})
+    if (const auto given = parameters.boundary_numbers.find(key);
+        given != parameters.boundary_numbers.end())
+      return given->second;
+  return group;
+}
+
 /// Return the name of the boundary that a group of @p element becomes.
 std::string FaceNames::name_of(const Element &element, const std::string &group) const
 {
-  // The entry gives names to groups without a name, and may rename other groups.
-  const auto given = parameters.boundary_numbers.find(group);
-  if (given != parameters.boundary_numbers.end())
-    return given->second;
-  if (file.unnamed.count(group) > 0)
-    throw element_error(element, "belongs to group " + group +
-                                   ", which has no name in the file; set 'Boundary names = " +
-                                   group + ": NAME'");
+  if (const auto name = renamed(group); name != group)
+    return name;
   // These characters separate items in lists of a parameter file.
   if (group.find_first_of(",:;=#\\") != std::string::npos)
     throw element_error(element, "belongs to the group '" + group +

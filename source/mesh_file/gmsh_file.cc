@@ -232,15 +232,12 @@ private:
     return found->second;
   }
 
-  /// Return the name of a physical group, or its number. A name belongs to a number and a
-  /// dimension, because a curve and a surface may both be group 1.
+  /// Return the name of a physical group; group-7 for group 7 without a name. A name belongs to a
+  /// number and a dimension, because a curve and a surface may both be group 1.
   std::string group(ElementShape shape, unsigned long number)
   {
     const auto found = names.find({dimension(shape), number});
-    if (found != names.end())
-      return found->second;
-    mesh.unnamed[std::to_string(number)] = true;
-    return std::to_string(number);
+    return found != names.end() ? found->second : unnamed_group + std::to_string(number);
   }
 
   /// Read the nodes of an element and store the element.

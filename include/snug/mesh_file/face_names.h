@@ -46,6 +46,7 @@ private:
   std::vector<Corners>                                       order; ///< faces with names
   std::vector<Corners>                                       outer; ///< faces of one of the cells
 
+  std::string renamed(const std::string &group) const;
   std::string name_of(const Element &element, const std::string &group) const;
   bool        is_wanted(const std::string &name) const;
   void        name_face(const Element &element, const std::string &name);

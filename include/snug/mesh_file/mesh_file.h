@@ -26,6 +26,10 @@ unsigned int dimension(ElementShape shape);
 
 unsigned int n_corners(ElementShape shape);
 
+/// The name of a group that has only a number in the file begins with this text and ends with the
+/// number.
+const std::string unnamed_group = "group-";
+
 /// This struct stores the content of a mesh file.
 struct MeshFile
 {
@@ -33,7 +37,7 @@ struct MeshFile
   {
     ElementShape              shape;
     std::vector<unsigned int> corners; ///< indices into points
-    /// names or numbers of the groups that contain the element, in the order of the file
+    /// names of the groups that contain the element, in the order of the file
     std::vector<std::string> groups;
     unsigned long            number; ///< number of the element in the file
     unsigned long            line;   ///< line of the file; 0 if the file is binary
@@ -41,8 +45,6 @@ struct MeshFile
 
   std::vector<dealii::Point<3>> points;
   std::vector<Element>          elements;
-  /// groups that have a number, but no name in the file
-  std::map<std::string, bool> unnamed;
   /// Middle nodes of quadratic elements: corners of an edge or a quadrilateral in ascending order
   /// -> the point in its middle
   std::map<std::vector<unsigned int>, unsigned int> middles;

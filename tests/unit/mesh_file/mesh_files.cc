@@ -53,7 +53,6 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
     {replaced(unnamed, "12 1 1 1", "12 1 1 -0.5"), "element 5 is inverted"},
     {replaced(unnamed, "1 3 2 2 5 1 9 10 3", "1 3 2 2 5 1 9 12 3"),
        "line 21: element 1 is not a face of a cell"},
-    {replaced(unnamed, "3 3 2 3", "3 3 2 4"), "line 23: element 3 belongs to group 4"},
     {replaced(msh, "\"bottom\"", "bottom"), "line 6: a physical name in quotes"},
     {replaced(msh, "2.2 0 8", "3.0 0 8"), "version 3.0"},
     {msh.substr(0, msh.find("$Elements")), "the file has no elements"},
@@ -69,15 +68,10 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
       EXPECT_NE(message.find(item.says), std::string::npos)
         << message << "\n  and not: " << item.says;
     }
-  EXPECT_NE(failure_reason(unnamed, file_body(), 3).find("belongs to group 2, which has no name"),
-            std::string::npos);
   EXPECT_NE(failure_reason(contents("square.msh"), file_body(), 3)
               .find("it has 4 lines, 2 triangles and 1 quadrilateral"),
             std::string::npos);
   EXPECT_NE(failure_reason(msh, file_body(), 2).find("is a solid"), std::string::npos);
-  EXPECT_NE(failure_reason(replaced(msh, "2 2 \"bottom\"", "2 7 \"bottom\""), file_body(), 3)
-              .find("belongs to group 2, which has no name"),
-            std::string::npos);
   auto region    = file_body();
   region.regions = {"blocks"};
   EXPECT_NE(failure_reason(msh, region, 3).find("which has the regions block"), std::string::npos);
@@ -102,6 +96,27 @@ TEST(MeshFiles, LeftHandedFilesAreTurned)
   text      = replaced(text, "1 9 10 3 5 11 12 8", "5 11 12 8 1 9 10 3");
   text      = replaced(text, "9 2 4 10 11 6 7 12", "11 6 7 12 9 2 4 10");
   expect_block<3>(text, numbered_body(), 2);
+}
+
+TEST(MeshFiles, GroupsWithoutANameAreCalledByTheirNumbers)
+{
+  const auto text     = contents("block-unnamed.msh");
+  const auto names_of = [&](const std::map<std::string, std::string> &given) {
+    auto body             = file_body();
+    body.boundary_numbers = given;
+    return mesh_file::import_mesh(text, body, 3)->solid->boundary_names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names_of({}), (Names{"group-2", "group-3", "free"}));
+  EXPECT_EQ(names_of({{"3", "top"}}), (Names{"group-2", "top", "free"}));
+  EXPECT_EQ(names_of({{"group-2", "bottom"}}), (Names{"bottom", "group-3", "free"}));
+  // the same number of another dimension has a name
+  const auto msh = replaced(contents("block-2.msh"), "2 2 \"bottom\"", "1 2 \"bottom\"");
+  EXPECT_EQ(mesh_file::import_mesh(msh, file_body(), 3)->solid->boundary_names.front(), "group-2");
+  auto sets          = numbered_body();
+  sets.boundary_sets = {"group-2"};
+  EXPECT_EQ(mesh_file::import_mesh(text, sets, 3)->solid->boundary_names,
+            (Names{"bottom", "free"}));
 }
 
 TEST(MeshFiles, CellsMayBeTurnedAgainstEachOther)
@@ -256,8 +271,8 @@ TEST(MeshFiles, RegionsAreBodiesOrMaterials)
   text      = replaced(text, "6 5 2 1", "6 5 2 9");
   auto body = numbered_body();
   EXPECT_EQ(mesh_file::import_mesh(text, body, 3)->solid->region_names,
-            (std::vector<std::string>{"1", "9"}));
-  body.regions        = {"9"};
+            (std::vector<std::string>{"group-1", "group-9"}));
+  body.regions        = {"group-9"};
   body.imported       = mesh_file::import_mesh(text, body, 3);
   const auto geometry = geometry::make_geometry<3>(body);
   EXPECT_EQ(geometry->n_coarse_cells(), 1.);
