@@ -35,13 +35,18 @@ void check_regions(const std::vector<std::string> &regions, const std::set<std::
 
 [[noreturn]] void throw_without_cells(const MeshFile &file, unsigned int dim)
 {
+  const bool has_faces =
+    std::any_of(file.elements.begin(), file.elements.end(),
+                [](const Element &element) { return dimension(element.shape) == 2; });
   const std::string counts = count_shapes(file.elements);
-  throw InputError(std::string("the file has no ") +
-                   (dim == 3 ? "tetrahedra, prisms or hexahedra, which Dimension = 3 "
-                               "needs to fill the body"
-                             : "triangles or quadrilaterals, which Dimension = 2 "
-                               "needs") +
-                   "; it has " + (counts.empty() ? "only points" : counts));
+  throw InputError(
+    std::string("the file has no ") +
+    (dim == 3 ? "tetrahedra, prisms or hexahedra, which Dimension = 3 "
+                "needs to fill the body"
+              : "triangles or quadrilaterals, which Dimension = 2 "
+                "needs") +
+    "; it has " + (counts.empty() ? "only points" : counts) +
+    (has_faces ? ": shells, membranes, rigid elements or faces, without a volume" : ""));
 }
 
 /// Check that all cells of a plane mesh have the same z. Elements of other regions and isolated

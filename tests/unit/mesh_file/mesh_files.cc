@@ -69,7 +69,8 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
         << message << "\n  and not: " << item.says;
     }
   EXPECT_NE(failure_reason(contents("square.msh"), file_body(), 3)
-              .find("it has 4 lines, 2 triangles and 1 quadrilateral"),
+              .find("it has 4 lines, 2 triangles and 1 quadrilateral: shells, membranes, rigid "
+                    "elements or faces, without a volume"),
             std::string::npos);
   EXPECT_NE(failure_reason(msh, file_body(), 2).find("is a solid"), std::string::npos);
   auto region    = file_body();
