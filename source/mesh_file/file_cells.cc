@@ -100,10 +100,26 @@ void turn(Element &element)
     std::swap_ranges(c.begin(), c.begin() + n / 2, c.begin() + n / 2);
 }
 
-/// Turn all elements of a shape if they are left-handed, because some programs number all elements
-/// of a shape in the opposite order: prisms of VTK, whose first triangle has its normal away from
-/// the second one, and converted hexahedra. If some elements of a shape are right-handed, then the
-/// shape is not mirrored as a whole, and a left-handed element is an error.
+/// Throw if a plane element that was turned is inverted: its edges had the directions that the
+/// edges of its neighbours require, so that after the turn both run along an edge in one direction.
+void require_consistent_edges(const std::vector<Element>  &cells,
+                              const std::set<std::size_t> &turned)
+{
+  std::map<std::pair<unsigned int, unsigned int>, std::size_t> cell_at;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (std::size_t k = 0; k < cells[i].corners.size(); ++k)
+      {
+        const auto &c              = cells[i].corners;
+        const auto [found, is_new] = cell_at.insert({{c[k], c[(k + 1) % c.size()]}, i});
+        if (!is_new && turned.count(i) + turned.count(found->second) > 0)
+          throw element_error(cells[turned.count(i) > 0 ? i : found->second], "is inverted");
+      }
+}
+
+/// Turn left-handed elements, because some programs number elements in the opposite order: plane
+/// elements of a surface whose normal points down, prisms of VTK, whose first triangle has its
+/// normal away from the second one, and converted hexahedra. In space all elements of a shape are
+/// turned, or none: if some of them are right-handed, then a left-handed element is an error.
 template <int dim>
 void turn_mirrored(std::vector<Element>                &cells,
                    const std::vector<dealii::Point<3>> &points,
@@ -117,21 +133,25 @@ void turn_mirrored(std::vector<Element>                &cells,
                                   "hexahedra");
       right[cell.shape] = right[cell.shape] || orientation<dim>(cell, points) == 1;
     }
-  unsigned int n = 0;
-  for (auto &cell : cells)
+  std::set<std::size_t> turned;
+  for (std::size_t i = 0; i < cells.size(); ++i)
     {
+      Element  &cell = cells[i];
       const int sign = orientation<dim>(cell, points);
       if (sign == 0)
         throw element_error(cell, "is inverted at a corner or flat");
       if (sign > 0)
         continue;
-      if (right[cell.shape])
+      if (dim == 3 && right[cell.shape])
         throw element_error(cell, "is inverted");
       turn(cell);
-      ++n;
+      turned.insert(i);
     }
-  if (n > 0)
-    notes.push_back(std::to_string(n) + " left-handed elements renumbered");
+  if (dim == 2)
+    require_consistent_edges(cells, turned);
+  if (!turned.empty())
+    notes.push_back(counted(turned.size(), dim == 2 ? "clockwise element" : "left-handed element") +
+                    " turned around");
 }
 } // namespace
 

@@ -99,6 +99,29 @@ TEST(MeshFiles, LeftHandedFilesAreTurned)
   expect_block<3>(text, numbered_body(), 2);
 }
 
+TEST(MeshFiles, ClockwiseElementsAreTurnedButNotInvertedOnes)
+{
+  const auto square = contents("square.msh");
+  // one surface, one element of a surface, and all elements
+  for (const unsigned int n : {1, 2, 3})
+    {
+      auto text     = n == 2 ? square : replaced(square, "5 1 2 4 3", "5 1 3 4 2");
+      text          = n == 1 ? text : replaced(text, "6 2 5 6", "6 5 2 6");
+      text          = n == 1 ? text : replaced(text, "7 2 6 4", "7 6 2 4");
+      auto body     = file_body();
+      body.imported = mesh_file::import_mesh(text, body, 2);
+      EXPECT_EQ(body.imported->notes.front(),
+                std::to_string(n) + " clockwise element" + (n == 1 ? "" : "s") + " turned around");
+      EXPECT_NEAR(file_volume(mesh::BodyMesh<2>(MPI_COMM_WORLD, {body}, 1)), 2., 1e-12);
+    }
+  // The node at (2, 1) makes the last triangle clockwise, but its edges are those of its
+  // neighbours.
+  const auto tangled = replaced(square, "6\n2 1 0", "6\n0.5 0.4 0");
+  EXPECT_NE(failure_reason(tangled, file_body(), 2).find("element 7 is inverted"),
+            std::string::npos)
+    << failure_reason(tangled, file_body(), 2);
+}
+
 TEST(MeshFiles, GroupsWithoutANameAreCalledByTheirNumbers)
 {
   const auto text     = contents("block-unnamed.msh");
