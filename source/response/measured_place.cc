@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace snug::response {
@@ -14,8 +15,20 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-/// Cells contain points up to this share of their size beyond their faces.
+/// Cells contain points up to this share of their size beyond their faces. The share ensures that
+/// rounding does not exclude a point on a face from both of its cells.
 const double tolerance = 1e-6;
+
+/// Points up to this share of the size of a cell outside of all bodies are moved onto the cell:
+/// they may lie on the true surface of a body, outside of its mesh.
+const double largest_move = 0.1;
+
+/// A point of a cell, or close to it.
+struct PointOfCell
+{
+  std::vector<double> values;   ///< shape functions of the cell
+  double              distance; ///< beyond the faces of the cell, as a share of its size
+};
 
 /// Return whether the cell with nodes @p X may contain @p point. Curved cells extend beyond
 /// the box of their nodes.
@@ -37,11 +50,11 @@ bool is_near(const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
   return true;
 }
 
-/// Return the shape functions of the cell with nodes @p X at @p point, computed by Newton's
-/// method. Return nothing if the point lies outside.
+/// Return the point of the cell with nodes @p X that is next to @p point in the coordinates of the
+/// cell, computed by Newton's method. Return nothing if the point lies outside.
 template <int dim>
-std::optional<std::vector<double>>
-shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
+std::optional<PointOfCell>
+point_of_cell(const unsigned int degree, const Nodes<dim> &X, const dealii::Tensor<1, dim> &point)
 {
   dealii::Point<dim> xi;
   for (unsigned int d = 0; d < dim; ++d)
@@ -58,12 +71,15 @@ shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tenso
       const dealii::Tensor<1, dim> move = invert(J) * (point - elasticity::value(shape, X));
       if (move.norm() < 1e-12)
         {
+          auto nearest = xi;
           for (unsigned int d = 0; d < dim; ++d)
-            // The tolerance ensures that rounding does not exclude a point on a face from
-            // both of its cells.
-            if (xi[d] < -tolerance || xi[d] > 1. + tolerance)
-              return {};
-          return shape.value;
+            nearest[d] = std::clamp(xi[d], 0., 1.);
+          const double distance = nearest.distance(xi);
+          if (distance > largest_move)
+            return {};
+          if (distance <= tolerance)
+            return PointOfCell{shape.value, 0.};
+          return PointOfCell{mesh::lagrange_point<dim>(degree, nearest).value, distance};
         }
       xi += move;
       // Newton's method diverges for points far outside. The negated comparison includes NaN.
@@ -73,19 +89,24 @@ shape_values(const unsigned int degree, const Nodes<dim> &X, const dealii::Tenso
   return {};
 }
 
-/// Throw unless exactly one body contains the point, because displacements of touching bodies
-/// differ.
-void require_one_body(const ResponseParameters        &parameters,
-                      const std::vector<std::string>  &names,
-                      const std::vector<unsigned int> &holds)
+/// Throw unless exactly one body contains the point, or none does and one is close, because
+/// displacements of touching bodies differ. @p distances are those of the point from the bodies.
+void require_one_body(const ResponseParameters       &parameters,
+                      const std::vector<std::string> &names,
+                      const std::vector<double>      &distances)
 {
-  std::string bodies;
-  for (unsigned int b = 0; b < holds.size(); ++b)
-    if (holds[b] != 0)
-      bodies += (bodies.empty() ? "" : ", ") + names[b];
-  const auto n = holds.size() - std::count(holds.begin(), holds.end(), 0);
+  std::string  bodies;
+  unsigned int n     = 0;
+  const double least = *std::min_element(distances.begin(), distances.end());
+  for (unsigned int b = 0; b < distances.size(); ++b)
+    if (distances[b] <= (least == 0. ? 0. : largest_move))
+      {
+        bodies += (bodies.empty() ? "" : ", ") + names[b];
+        ++n;
+      }
   if (n == 0)
-    throw bad_entry(parameters.path("Point"), to_text(parameters.point), "lies outside the bodies");
+    throw bad_entry(parameters.path("Point"), to_text(parameters.point),
+                    "lies outside the bodies by more than a tenth of a cell");
   if (n > 1)
     throw bad_entry(parameters.path("Point"), to_text(parameters.point),
                     "lies in the bodies " + bodies + ": name one with 'Body'");
@@ -143,29 +164,41 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
   dealii::Tensor<1, dim> x;
   for (unsigned int c = 0; c < dim; ++c)
     x[c] = parameters.point[c];
-  std::vector<CellWeights>  found;
-  std::vector<unsigned int> holds(mesh.n_bodies(), 0);
-  const auto                look = [&](unsigned int s, unsigned int i) {
+  const double             far = std::numeric_limits<double>::max();
+  std::vector<CellWeights> found;
+  double                   distance = far;
+  std::vector<double>      distances(mesh.n_bodies(), far);
+  const auto               look = [&](unsigned int s, unsigned int i) {
     const auto &assembler = *solver.assemblers()[s];
     // Use reference positions, so that the point is the same material point in every design.
     const auto X = assembler.cell_field(i, mesh.reference_positions());
     if (!is_near<dim>(X, x))
       return;
-    const auto weights = shape_values<dim>(mesh.degree(), X, x);
-    if (!weights)
+    const auto point = point_of_cell<dim>(mesh.degree(), X, x);
+    if (!point)
       return;
-    // Count each body once, even if several of its cells contain the point.
-    holds[mesh.cells()[assembler.cells()[i]].body] = 1;
-    if (found.empty())
-      found.push_back({s, i, *weights});
+    double &of_body = distances[mesh.cells()[assembler.cells()[i]].body];
+    of_body         = std::min(of_body, point->distance);
+    if (point->distance < distance)
+      {
+        distance = point->distance;
+        found    = {{s, i, point->values}};
+      }
   };
   state::for_each_cell<dim>(solver, parameters.body, look);
-  dealii::Utilities::MPI::max(holds, comm, holds);
-  require_one_body(parameters, solver.model().body_names, holds);
+  dealii::Utilities::MPI::min(distances, comm, distances);
+  require_one_body(parameters, solver.model().body_names, distances);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
   const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
-  // Cells of several ranks may contain the point, so only the lowest rank counts it.
-  if (dealii::Utilities::MPI::min(found.empty() ? n_ranks : rank, comm) != rank)
+  const double       least   = *std::min_element(distances.begin(), distances.end());
+  if (least > 0.)
+    solver.context().warn({"point",
+                           "'" + parameters.path("Point") + "' = '" + to_text(parameters.point) +
+                             "' lies outside of the bodies and is moved onto the nearest cell",
+                           least, 0.});
+  // Cells of several ranks may be equally close to the point, so only the lowest rank counts it.
+  const bool is_closest = distance == least;
+  if (dealii::Utilities::MPI::min(is_closest ? rank : n_ranks, comm) != rank)
     found.clear();
   return found;
 }

@@ -124,16 +124,47 @@ TEST(Displacement, PointsMustLieInOneBody)
   parameters.name      = "tip";
   parameters.quantity  = "displacement";
   parameters.component = response::Component::x;
-  parameters.point     = {0.5, 2.01};
+  // The cells of the punch have the edge 1/2.
+  parameters.point = {0.5, 2.051};
   EXPECT_EQ(failure_reason(problem, parameters),
-            "entry 'Response tip/Point' = '0.5, 2.01': lies outside the "
-            "bodies");
+            "entry 'Response tip/Point' = '0.5, 2.051': lies outside the "
+            "bodies by more than a tenth of a cell");
   parameters.point = {0.5, 1.};
   EXPECT_EQ(failure_reason(problem, parameters),
             "entry 'Response tip/Point' = '0.5, 1': lies in the bodies punch, "
             "foundation: name one with 'Body'");
   parameters.body = "punch";
   EXPECT_EQ(failure_reason(problem, parameters), "");
+}
+
+template <int dim>
+void check_points_outside()
+{
+  Problem<dim>                 problem(plain_scene<dim>(1));
+  const auto                   state = linear_state(problem);
+  response::ResponseParameters parameters;
+  parameters.quantity  = "displacement";
+  parameters.component = response::Component::y;
+  parameters.point.assign(dim, 0.3);
+  parameters.point[dim - 1] = 2.02;
+  dealii::Tensor<1, dim> nearest;
+  for (unsigned int d = 0; d < dim; ++d)
+    nearest[d] = parameters.point[d];
+  nearest[dim - 1] = 2.;
+  EXPECT_NEAR(value(problem, state, parameters), linear(nearest)[1], 1e-12);
+  // next to an edge of several cells
+  parameters.point[0] = 0.5 + 1e-3;
+  nearest[0]          = 0.5 + 1e-3;
+  EXPECT_NEAR(value(problem, state, parameters), linear(nearest)[1], 1e-12);
+  parameters.point[0] = 1.04;
+  nearest[0]          = 1.;
+  EXPECT_NEAR(value(problem, state, parameters), linear(nearest)[1], 1e-12);
+}
+
+TEST(Displacement, PointsCloseToABodyAreMovedOntoIt)
+{
+  check_points_outside<2>();
+  check_points_outside<3>();
 }
 
 template <int dim>
