@@ -2,6 +2,7 @@
 #include <snug/app/build_loads.h>
 #include <snug/app/mesh_checks.h>
 #include <snug/base/errors.h>
+#include <snug/geometry/extents.h>
 #include <snug/geometry/imported_mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -33,10 +34,12 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
       if (gap <= too_far * size)
         continue;
       std::ostringstream text;
-      text << "have a distance of " << gap << ", but the size of the larger body is only " << size
+      text << "'" << pair.slave << "' (" << geometry::extents(boxes[0].lower, boxes[0].upper, size)
+           << ") and '" << pair.master << "' ("
+           << geometry::extents(boxes[1].lower, boxes[1].upper, size) << ") have a distance of "
+           << gap << ", but the size of the larger body is only " << size
            << "; check the units of the meshes, 'Scale' and 'Shift'";
-      throw InputError(scene.file + ": entry 'Contact/Pairs': '" + pair.slave + "' and '" +
-                       pair.master + "' " + text.str());
+      throw InputError(scene.file + ": entry 'Contact/Pairs': " + text.str());
     }
 }
 

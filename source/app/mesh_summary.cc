@@ -1,34 +1,17 @@
 #include <snug/app/mesh_summary.h>
+#include <snug/contact/pair_geometry.h>
 #include <snug/elasticity/element.h>
 #include <snug/faces/tributary.h>
+#include <snug/geometry/extents.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
 
 namespace snug::app {
 namespace {
-template <int dim>
-double area_of(const mesh::BodyMesh<dim> &mesh, const mesh::Surface<dim> &surface)
-{
-  std::vector<unsigned int> faces;
-  for (unsigned int f = 0; f < surface.faces().size(); ++f)
-    faces.push_back(f);
-  const faces::FaceShape<dim> shape(mesh.degree());
-  const auto                  positions = surface.gather(mesh.reference_positions());
-  const auto                  areas =
-    faces::tributary_areas<dim>({surface, faces, shape}, faces::PointField<dim, double>(positions));
-  double sum = 0.;
-  for (unsigned int node = 0; node < areas.size(); ++node)
-    if (surface.masters(node).empty())
-      sum += areas[node];
-  return sum;
-}
-
 template <int dim>
 std::vector<typename MeshSummary<dim>::Region> regions_of_body(const mesh::BodyMesh<dim> &mesh,
                                                                unsigned int               body)
@@ -66,29 +49,32 @@ typename MeshSummary<dim>::Body summarize_body(const mesh::BodyMesh<dim> &mesh, 
   for (unsigned int b = 0; b < names.size(); ++b)
     {
       const mesh::Surface<dim> surface(mesh, {{body, b}});
-      entry.boundaries.push_back(
-        {names[b], area_of(mesh, surface), box_of_side<dim>(mesh, {body, b})});
+      entry.boundaries.push_back({names[b],
+                                  area_of<dim>(mesh.degree(), surface, {body, b},
+                                               surface.gather(mesh.reference_positions())),
+                                  box_of_side<dim>(mesh, {body, b})});
     }
   return entry;
 }
 
-/// Return the extents of a box as text. Numbers that are round-off, relative to the @p size of the
-/// body, are shown as 0.
-template <int dim>
-std::string extents(const BoundingBox<dim> &box, double size)
-{
-  const double       least = 1e-9 * size;
-  std::ostringstream text;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      const auto shown = [&](const double x) { return std::abs(x) < least ? 0. : x; };
-      text << (d == 0 ? "" : ", ") << "xyz"[d] << ' ' << shown(box.lower[d]);
-      if (box.upper[d] - box.lower[d] > least)
-        text << " to " << shown(box.upper[d]);
-    }
-  return text.str();
-}
 } // namespace
+
+template <int dim>
+double area_of(const unsigned int                        degree,
+               const mesh::Surface<dim>                 &surface,
+               const contact::Side                      &side,
+               const typename mesh::Surface<dim>::Field &positions)
+{
+  const auto                  faces = contact::faces_of(surface, side);
+  const faces::FaceShape<dim> shape(degree);
+  const auto                  areas =
+    faces::tributary_areas<dim>({surface, faces, shape}, faces::PointField<dim, double>(positions));
+  double sum = 0.;
+  for (unsigned int node = 0; node < areas.size(); ++node)
+    if (surface.masters(node).empty())
+      sum += areas[node];
+  return sum;
+}
 
 template <int dim>
 MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
@@ -109,7 +95,7 @@ void print(const MeshSummary<dim> &summary, std::ostream &out)
     {
       const double size = body.box.diagonal();
       out << "body " << body.name << ": " << counted(body.n_cells, "cell") << ", "
-          << extents<dim>(body.box, size) << '\n';
+          << geometry::extents(body.box.lower, body.box.upper, size) << '\n';
       if (body.regions.size() > 1)
         for (const auto &region : body.regions)
           {
@@ -124,12 +110,17 @@ void print(const MeshSummary<dim> &summary, std::ostream &out)
         width = std::max(width, boundary.name.size());
       for (const auto &boundary : body.boundaries)
         out << "  " << std::left << std::setw(width) << boundary.name << "  area " << std::setw(10)
-            << boundary.area << "  " << extents<dim>(boundary.box, size) << '\n';
+            << boundary.area << "  "
+            << geometry::extents(boundary.box.lower, boundary.box.upper, size) << '\n';
     }
 }
 
-template MeshSummary<2> summarize_mesh(const scene::Scene &, const mesh::BodyMesh<2> &);
-template void           print(const MeshSummary<2> &, std::ostream &);
-template MeshSummary<3> summarize_mesh(const scene::Scene &, const mesh::BodyMesh<3> &);
-template void           print(const MeshSummary<3> &, std::ostream &);
+#define SNUG_INSTANTIATE(dim)                                                                        \
+  template double           area_of(unsigned int, const mesh::Surface<dim> &, const contact::Side &, \
+                                    const mesh::Surface<dim>::Field &);                              \
+  template MeshSummary<dim> summarize_mesh(const scene::Scene &, const mesh::BodyMesh<dim> &);       \
+  template void             print(const MeshSummary<dim> &, std::ostream &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::app

@@ -1,12 +1,15 @@
 #include <snug/contact/matching.h>
 #include <snug/contact/nearest_face.h>
 #include <snug/contact/projection.h>
+#include <snug/geometry/extents.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace snug::contact {
 namespace {
@@ -108,11 +111,52 @@ std::vector<unsigned int> coarse_faces(const mesh::Surface<dim>                 
   return result;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                  \
-  template Matching                  matching(const PairGeometry<dim> &);                      \
-  template std::vector<unsigned int> coarse_faces(const mesh::Surface<dim> &,                  \
-                                                  const faces::FaceShape<dim> &, const Pair &, \
-                                                  const mesh::Surface<dim>::Field &);
+template <int dim>
+std::string places_of_sides(const mesh::Surface<dim>                 &surface,
+                            const faces::FaceShape<dim>              &shape,
+                            const Pair                               &pair,
+                            const typename mesh::Surface<dim>::Field &positions)
+{
+  std::ostringstream text;
+  const auto         slave  = faces_of(surface, pair.slave);
+  const auto         extent = [&](const std::vector<unsigned int> &side) {
+    std::vector<dealii::Point<dim>> points;
+    for (const unsigned int face : side)
+      for (const unsigned int node : surface.faces()[face].nodes)
+        points.emplace_back(positions[node]);
+    const auto [lower, upper] = dealii::BoundingBox<dim>(points).get_boundary_points();
+    return geometry::extents<dim>(lower, upper, lower.distance(upper));
+  };
+  if (!pair.obstacle)
+    {
+      const auto             master = faces_of(surface, pair.master);
+      const NearestFace<dim> other(surface, master, shape, positions);
+      double                 least = std::numeric_limits<double>::max(), cosine = 0.;
+      for (const unsigned int face : slave)
+        {
+          const auto [x, n] = middle(surface, shape, face, positions);
+          const auto found  = other.closest(x);
+          if (found.point.squared_distance < least)
+            {
+              least  = found.point.squared_distance;
+              cosine = n * middle(surface, shape, found.face, positions).second;
+            }
+        }
+      text << "the sides have a distance of " << std::sqrt(least)
+           << (cosine > -1e-9 ? ", and they do not look at each other" : "") << "; '"
+           << pair.master_name << "' is at " << extent(master) << "; ";
+    }
+  text << "'" << pair.slave_name << "' is at " << extent(slave);
+  return text.str();
+}
+
+#define SNUG_INSTANTIATE(dim)                                                                     \
+  template Matching                  matching(const PairGeometry<dim> &);                         \
+  template std::vector<unsigned int> coarse_faces(const mesh::Surface<dim> &,                     \
+                                                  const faces::FaceShape<dim> &, const Pair &,    \
+                                                  const mesh::Surface<dim>::Field &);             \
+  template std::string places_of_sides(const mesh::Surface<dim> &, const faces::FaceShape<dim> &, \
+                                       const Pair &, const mesh::Surface<dim>::Field &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

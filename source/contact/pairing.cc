@@ -213,7 +213,7 @@ void Contact<dim>::number_rows(const Field &positions, const faces::HeldDirectio
       // The index of a row is its position in this list of all groups.
       row_places.push_back({p, slave});
   share_rows(positions, held);
-  check_named_pairs();
+  check_named_pairs(positions);
   collect_dependent_multipliers();
 }
 
@@ -308,7 +308,7 @@ void Contact<dim>::share_rows(const Field &positions, const faces::HeldDirection
 
 /// Check replicated data, so that all ranks reach the same answer and throw the same error.
 template <int dim>
-void Contact<dim>::check_named_pairs() const
+void Contact<dim>::check_named_pairs(const Field &positions) const
 {
   std::vector<bool> has_rows(named.size(), false);
   for (unsigned int p = 0; p < groups.size(); ++p)
@@ -320,9 +320,15 @@ void Contact<dim>::check_named_pairs() const
                         std::find(has_rows.begin(), has_rows.end(), true) != has_rows.end();
   for (unsigned int pair = 0; pair < named.size(); ++pair)
     if (!has_rows[pair] && !may_miss)
-      throw InputError(
-        "contact pair '" + named[pair].name() +
-        "': no slave node lies opposite to the master within the search distance and angle");
+      {
+        const NamedPair &of = named[pair];
+        throw InputError(
+          "contact pair '" + of.name() +
+          "': no slave node lies opposite to the master within the search distance and angle: " +
+          places_of_sides<dim>(
+            surface, shape, {of.slave, of.master, of.slave_name, of.master_name, {}, of.obstacle},
+            positions));
+      }
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                \

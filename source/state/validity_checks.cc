@@ -285,7 +285,8 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
       throw bad_entry("Contact/Pairs", pairs[p].name(),
                       line("the sides overlap initially" + place + " by", -gaps[p].least,
                            of_a_face(gaps[p]),
-                           ": if the overlap is intended, set 'Interference' of the pair"));
+                           ": pair faces that look at each other, or, if the overlap is intended, "
+                           "set 'Interference' of the pair"));
 }
 
 std::vector<Warning> overlap_warnings(const std::vector<contact::Pair>       &pairs,

@@ -38,6 +38,13 @@ struct MeshSummary
   std::vector<Body> bodies;
 };
 
+/// Return the area of the faces of @p side at @p positions of the surface [length^2].
+template <int dim>
+double area_of(unsigned int                              degree,
+               const mesh::Surface<dim>                 &surface,
+               const contact::Side                      &side,
+               const typename mesh::Surface<dim>::Field &positions);
+
 /// Return the summary of the refined meshes of a scene. Collective.
 template <int dim>
 MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);

@@ -263,7 +263,7 @@ private:
   void make_groups(const Field &positions, const faces::HeldDirections<dim> &held);
   void number_rows(const Field &positions, const faces::HeldDirections<dim> &held);
   std::vector<std::vector<bool>> contested_nodes(const Field &positions) const;
-  void                           check_named_pairs() const;
+  void                           check_named_pairs(const Field &positions) const;
   void share_rows(const Field &positions, const faces::HeldDirections<dim> &held);
   void collect_dependent_multipliers();
   void measure_pairing(const Field &positions, const std::vector<Row<dim>> &paired);

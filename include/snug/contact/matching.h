@@ -21,6 +21,14 @@ constexpr double matching_tolerance = 0.01;
 template <int dim>
 Matching matching(const PairGeometry<dim> &pair);
 
+/// Return where the sides of a pair without rows are, for messages: their distance, whether they
+/// look away from each other, and their boxes.
+template <int dim>
+std::string places_of_sides(const mesh::Surface<dim>                 &surface,
+                            const faces::FaceShape<dim>              &shape,
+                            const Pair                               &pair,
+                            const typename mesh::Surface<dim>::Field &positions);
+
 /// A face of a pair is coarse if it is larger by more than this factor than the face opposite to
 /// its centre. The factor is above sqrt(2), because otherwise halving the larger of two faces could
 /// make the other face coarse, and the two faces would be refined in turns.
