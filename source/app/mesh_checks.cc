@@ -76,14 +76,6 @@ std::vector<std::string> import_warnings(const scene::Scene &scene)
   return lines;
 }
 
-void print_import_notes(const scene::Scene &scene, std::ostream &out)
-{
-  for (const auto &body : scene.bodies)
-    if (body.mesh.imported)
-      for (const auto &note : body.mesh.imported->notes)
-        out << "body " << body.name << ", " << body.mesh.file << ": " << note << '\n';
-}
-
 void print_cad_faces(const scene::Scene &scene, std::ostream &out)
 {
   for (const auto &body : scene.bodies)

@@ -1,5 +1,6 @@
 #include <snug/accuracy/adaptation.h>
 #include <snug/app/mesh_checks.h>
+#include <snug/app/model_report.h>
 #include <snug/app/offsets.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
@@ -50,9 +51,8 @@ Results<dim>::Results(const ShapeProblem<dim> &of) : problem(&of)
 template <int dim>
 void Results<dim>::print_header()
 {
-  const auto &solver    = *problem->solver;
-  auto       &out       = problem->context.out();
-  const auto  mesh_rows = counted_rows();
+  auto      &out       = problem->context.out();
+  const auto mesh_rows = counted_rows();
   out << counted(problem->scene.bodies.size(), "body", "bodies") << ", "
       << counted(problem->mesh->n_global_cells(), "cell") << ", "
       << counted(dim * problem->mesh->n_global_free_nodes(), "unknown") << ", "
@@ -61,77 +61,13 @@ void Results<dim>::print_header()
       << counted(mesh_rows.all, "constraint") << ", "
       << counted(problem->shapes->n_variables(), "design variable") << ", "
       << counted(problem->context.n_ranks(), "MPI process", "MPI processes") << std::endl;
-  print_import_notes(problem->scene, out);
-  const auto positions = solver.positions();
-  for (const unsigned int c : positions)
-    print_pairs(c, positions.size() > 1);
+  print_notes(problem->scene, out);
+  print_pairs(*problem);
   auto &context = problem->context;
   context.warn("mesh file", import_warnings(problem->scene));
   context.warn("refinement", refinement_warnings(problem->scene, *problem->mesh));
   context.warn("offset", offset_warnings(*problem));
-  for (const unsigned int c : positions)
-    {
-      const auto &contact = solver.contact(c);
-      context.warn("symmetry plane",
-                   state::symmetry_warnings(*problem->mesh, solver.model().supports,
-                                            contact.pairs()));
-      for (const auto &warning : state::matching_warnings(contact.pairs(), contact.matchings()))
-        context.warn(warning);
-      for (const auto &warning : state::overlap_warnings(contact.pairs(), contact.paired_gaps(),
-                                                         state::place_of(solver.model(), c)))
-        context.warn(warning);
-    }
-}
-
-/// Print the pairs at the position of a load case. Of several positions, those after the first are
-/// printed for Verbosity = debug alone.
-template <int dim>
-void Results<dim>::print_pairs(const unsigned int load_case, const bool is_one_of_several) const
-{
-  auto       &out     = problem->context.out(load_case > 0 ? Verbosity::debug : Verbosity::normal);
-  const auto &contact = problem->solver->contact(load_case);
-  const auto &surface = problem->solver->surface();
-  const auto &pairs   = contact.pairs();
-  std::vector<unsigned int> rows(pairs.size(), 0);
-  for (const auto &place : contact.places())
-    ++rows[place.pair];
-  const faces::FaceShape<dim> shape(problem->mesh->degree());
-  const auto                  print_side = [&](const contact::Side &side) {
-    double      height = contact::face_height(surface, shape, side);
-    std::string names;
-    for (const auto &[body, boundary] : side.boundaries())
-      {
-        const auto kind = problem->mesh->geometry(body).boundary_shape(boundary);
-        height          = std::max(height, kind.facet_height);
-        if (names.find(kind.name) == std::string::npos)
-          names += (names.empty() ? "" : ", ") + kind.name;
-      }
-    out << names;
-    if (height > 0.)
-      out << ", maximum distance of facets from the true surface " << height;
-  };
-  for (unsigned int p = 0; p < pairs.size(); ++p)
-    {
-      out << "contact " << pairs[p].name()
-          << (is_one_of_several ? state::place_of(problem->solver->model(), load_case) : "")
-          << ", ";
-      const auto &matching = contact.matchings()[p];
-      if (pairs[p].obstacle)
-        out << "obstacle";
-      else
-        out << to_text(*pairs[p].parameters.method) << ", " << matching.n_matching << " of "
-            << counted(matching.n_nodes, "slave node") << " match a master node";
-      out << ", " << counted(rows[p], "constraint") << ", initial gap "
-          << contact.paired_gaps()[p].least << " to " << contact.paired_gaps()[p].largest << "\n  "
-          << pairs[p].slave_name << ": ";
-      print_side(pairs[p].slave);
-      out << "; " << pairs[p].master_name << ": ";
-      if (pairs[p].obstacle)
-        out << pairs[p].obstacle->shape;
-      else
-        print_side(pairs[p].master);
-      out << std::endl;
-    }
+  warn_of_model(*problem);
 }
 
 template <int dim>

@@ -3,6 +3,7 @@
 #include <snug/app/interrupt.h>
 #include <snug/app/mesh_checks.h>
 #include <snug/app/mesh_summary.h>
+#include <snug/app/model_report.h>
 #include <snug/app/optimize.h>
 #include <snug/app/read_deck.h>
 #include <snug/app/sensitivity.h>
@@ -15,7 +16,6 @@
 #include <snug/io/text_file.h>
 #include <snug/mesh_file/deck_text.h>
 #include <snug/scene/read_scene.h>
-#include <snug/state/symmetry_planes.h>
 
 #include <petscblaslapack.h>
 
@@ -144,16 +144,14 @@ void validate_in(RunContext &context, const scene::Scene &scene)
 {
   auto mesh = timed_mesh<dim>(context, scene);
   print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
-  print_import_notes(scene, context.out());
+  print_notes(scene, context.out());
   print_cad_faces(scene, context.out(Verbosity::quiet));
   print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
   context.warn("mesh file", import_warnings(scene));
   context.warn("refinement", refinement_warnings(scene, *mesh));
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
-  for (const unsigned int c : problem.solver->positions())
-    context.warn("symmetry plane",
-                 state::symmetry_warnings(*problem.mesh, problem.solver->model().supports,
-                                          problem.solver->contact(c).pairs()));
+  print_pairs(problem);
+  warn_of_model(problem);
   problem.check_overlaps();
   const auto positions = problem.positions(problem.shapes->start());
   // Formulas of loads may have no value where only some ranks look.

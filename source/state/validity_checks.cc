@@ -304,6 +304,24 @@ std::vector<Warning> overlap_warnings(const std::vector<contact::Pair>       &pa
   return result;
 }
 
+template <int dim>
+std::vector<Warning> friction_warnings(const contact::Contact<dim> &contact)
+{
+  std::vector<Warning> result;
+  for (const auto &pair : contact.named_pairs())
+    {
+      double largest = 0.;
+      for (const auto &[row, share] : pair.rows)
+        largest = std::max(largest, contact.friction(row).coefficient);
+      if (largest > large_friction)
+        result.push_back({"friction",
+                          line("'Friction coefficient' of '" + pair.name() + "' is", largest, "",
+                               ": coefficients above 1.5 are rare"),
+                          largest, large_friction});
+    }
+  return result;
+}
+
 std::vector<Warning> matching_warnings(const std::vector<contact::Pair>     &pairs,
                                        const std::vector<contact::Matching> &matchings)
 {
@@ -331,10 +349,12 @@ std::vector<Warning> matching_warnings(const std::vector<contact::Pair>     &pai
   return result;
 }
 
-template ValidityChecks check_validity(const StateSolver<2> &,
-                                       const std::vector<contact::Row<2>> &,
-                                       const ContactState<2> &);
-template ValidityChecks check_validity(const StateSolver<3> &,
-                                       const std::vector<contact::Row<3>> &,
-                                       const ContactState<3> &);
+template std::vector<Warning> friction_warnings(const contact::Contact<2> &);
+template std::vector<Warning> friction_warnings(const contact::Contact<3> &);
+template ValidityChecks       check_validity(const StateSolver<2> &,
+                                             const std::vector<contact::Row<2>> &,
+                                             const ContactState<2> &);
+template ValidityChecks       check_validity(const StateSolver<3> &,
+                                             const std::vector<contact::Row<3>> &,
+                                             const ContactState<3> &);
 } // namespace snug::state

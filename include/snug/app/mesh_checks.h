@@ -23,9 +23,6 @@ std::vector<std::string> refinement_warnings(const scene::Scene        &scene,
 /// Return the warnings about errors of the geometry of mesh files, one line each.
 std::vector<std::string> import_warnings(const scene::Scene &scene);
 
-/// Print a line for each change that was made to a mesh file when it was read.
-void print_import_notes(const scene::Scene &scene, std::ostream &out);
-
 /// Print the faces of the CAD files of all bodies.
 void print_cad_faces(const scene::Scene &scene, std::ostream &out);
 } // namespace snug::app

@@ -132,8 +132,6 @@ private:
   std::vector<MeshError>          last_errors;  ///< of add_last()
   /// numbers_of_nodes() of the mesh of the problem, after the first call
   std::optional<std::vector<unsigned int>> node_numbers;
-
-  void print_pairs(unsigned int load_case, bool is_one_of_several) const;
 };
 } // namespace snug::app
 

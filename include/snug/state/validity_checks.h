@@ -18,6 +18,7 @@ constexpr double large_overlap  = 0.1;   ///< in faces
 constexpr double finer_slave    = 1.5;   ///< size ratio of master to slave faces, for mortar
 constexpr double least_motion   = 1e-13; ///< of nodes; smaller motions are round-off
 constexpr double large_facets   = 0.05;  ///< height of facets over the closed gap
+constexpr double large_friction = 1.5;   ///< coefficient: more is rather a mistake, as of units
 /// @}
 
 /// Overlap, in faces, beyond which the cause is not a rough mesh but a wrong pair.
@@ -64,6 +65,10 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
 std::vector<Warning> overlap_warnings(const std::vector<contact::Pair>       &pairs,
                                       const std::vector<contact::PairedGaps> &gaps,
                                       const std::string                      &place = "");
+
+/// Return a warning for each pair of the scene with a friction coefficient above large_friction.
+template <int dim>
+std::vector<Warning> friction_warnings(const contact::Contact<dim> &contact);
 
 /// Return a warning for each nodal pair of faces whose meshes do not match, and for each mortar
 /// pair whose slave faces are finer by more than the factor finer_slave.
