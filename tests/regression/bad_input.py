@@ -20,6 +20,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "contrib/lib" / folder)
                 for folder in ("", "stability")]
 
+from border_entries import (comma_cases, mesh_texts, odd_cases,  # noqa: E402
+                            place_cases)
 from many import End, run_many  # noqa: E402
 from runs import sample  # noqa: E402
 from wrong_entries import (input_cases, option_cases, partial_cases,  # noqa: E402
@@ -163,18 +165,16 @@ def check_mesh_files(runner):
         ("inverted cell", good.replace(first, "5 5 2 1 1 5 11 12 8 1 9 10 3"), {},
          ["line 25", "element 5", "inverted"]),
         ("surface mesh", flat, {}, ["4 quadrilaterals"]),
-        ("missing physical name", good, {"Boundary names": "3: top"},
-         ["line 21", "group 2"]),
         ("boundary not in the file", good, {"Supports": "left: x"},
          ["left", "bottom, top, free"]),
         ("cells of a region without a material", good.replace(
-            "6 5 2 1", "6 5 2 9"), {"Materials": "1: steel"},
-         ["the region '9' has no material"]),
+            "6 5 2 1", "6 5 2 9"), {"Materials": "group-1: steel"},
+         ["the region 'group-9' has no material"]),
         ("units that put bodies far apart", good, {"Shift": "0, 0, 1000"},
-         ["part.bottom", "distance of 999", "Scale"]),
-        ("boundary set that is not in the file", good, {"Boundary sets": "2, 3, 7"},
-         ["'7' is not a set", "the sets are 2, 3"]),
-        ("group that is no boundary set", good, {"Boundary sets": "2"},
+         ["part.bottom", "z 1000", "distance of 999", "Scale"]),
+        ("boundary set that is not in the file", good, {"Boundary sets": "group-2, 7"},
+         ["'7' is not a set", "the sets are group-2, group-3"]),
+        ("group that is no boundary set", good, {"Boundary sets": "group-2"},
          ["top", "bottom, free"]),
         ("curved face of a mesh file", good, {"Curved faces": "top: sphere"},
          ["top: sphere", "is for boxes"])]
@@ -187,6 +187,14 @@ def check_mesh_files(runner):
             place.append(path.name)
         runner.expect_error(title, [scene], [*place, *names])
         runner.expect_error(title, ["--validate", scene], names, ranks=3)
+    for title, file, mesh, entries, names in mesh_texts():
+        (runner.folder / file).write_text(mesh, encoding="utf-8")
+        scene = mesh_scene(runner, title, {"File": file, **entries})
+        runner.expect_error(title, [scene], [scene.name, *names])
+    scene = mesh_scene(runner, "group without a name", {
+        "File": MESHES / "block-unnamed.msh", "Boundary names": "2: bottom",
+        "Pressure": "group-3: 1"})
+    runner.expect_success("group without a name", ["--validate", scene], "  group-3  area")
     scene = mesh_scene(runner, "a mesh without end", {"File": "/dev/zero"})
     runner.expect_error("mesh of a device", [scene],
                            [scene.name, "/dev/zero", "must be a regular file"])
@@ -353,12 +361,15 @@ def main():
         slave, master = re.split(r"\s*[:,]\s*", runner.entry("Pairs"))[:2]
         check_good(runner, scene)
         cases = input_cases(bodies[0], slave, master)
-        for case in sample(cases + option_cases()):
+        commas = comma_cases(bodies[0], slave, master)
+        for case in sample(cases + commas + option_cases()):
             check_case(runner, case)
         for case in cases[:3] + cases[-5:-3]:
             check_case(runner, case, ranks=3)
-        for case in sample(setup_cases(bodies[0], slave)):
+        for case in sample(setup_cases(bodies[0], slave) + place_cases(bodies[0], slave)):
             check_case(runner, case._replace(options=["--validate"]))
+        for title, entries, text in sample(odd_cases(bodies[0])):
+            runner.expect_success(title, ["--validate", runner.write(title, entries)], text)
         # Wrong command lines end before MPI begins.
         scene_only = [scene, "--set", "Task=optimise"]
         runner.expect_error_alone("wrong value in a setting", scene_only, ["Task", "optimise"], 3)
