@@ -1,7 +1,7 @@
 #include <snug/deck/amplitudes.h>
 
 #include <algorithm>
-#include <numeric>
+#include <set>
 
 namespace snug::deck {
 using mesh_file::Keyword;
@@ -10,6 +10,9 @@ using mesh_file::upper_case;
 
 Amplitudes::Amplitudes(const mesh_file::DeckText &text)
 {
+  const std::set<std::string> known = {"NAME", "DEFINITION", "TIME", "VALUE", "SMOOTH"};
+  const auto n_steps                = std::count_if(text.keywords().begin(), text.keywords().end(),
+                                                    [](const auto &keyword) { return keyword.name == "STEP"; });
   for (const auto &keyword : text.keywords())
     if (keyword.name == "STEP")
       periods.push_back(1.);
@@ -25,7 +28,16 @@ Amplitudes::Amplitudes(const mesh_file::DeckText &text)
         if (!definition.empty() && definition != "TABULAR" && definition != "SMOOTH STEP")
           throw keyword_error(keyword, "*AMPLITUDE with DEFINITION = " + definition +
                                          " is not supported; write a table");
-        Table table{{}, upper_case(keyword.option("TIME")) == "TOTAL TIME"};
+        if (upper_case(keyword.option("TIME")) == "TOTAL TIME" && n_steps > 1)
+          throw keyword_error(keyword,
+                              "*AMPLITUDE with TIME = TOTAL TIME is not supported in a deck "
+                              "of several steps; write a table for each step");
+        for (const auto &[option, value] : keyword.options)
+          if (known.count(option) == 0 || upper_case(value) == "ABSOLUTE")
+            throw keyword_error(keyword, "*AMPLITUDE with " + option +
+                                           (value.empty() ? "" : " = " + value) +
+                                           " is not supported; write a table");
+        Table table{{}, definition == "SMOOTH STEP"};
         text.for_each_line(keyword, [&](const auto &words, const unsigned long line) {
           const auto numbers = mesh_file::numbers_from(words, 0, line);
           for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
@@ -45,9 +57,7 @@ double Amplitudes::at_end(const Keyword &keyword, const unsigned int step) const
   if (found == tables.end())
     throw keyword_error(keyword, "there is no *AMPLITUDE '" + keyword.option("AMPLITUDE") + "'");
   const auto  &table = found->second;
-  const double time  = table.is_of_total_time
-                         ? std::accumulate(periods.begin(), periods.begin() + step, 0.)
-                         : (step > 0 ? periods[step - 1] : 0.);
+  const double time  = step > 0 ? periods[step - 1] : 0.;
   const auto   next  = std::find_if(table.points.begin(), table.points.end(),
                                     [&](const auto &point) { return point.first >= time; });
   if (next == table.points.end())
@@ -56,6 +66,8 @@ double Amplitudes::at_end(const Keyword &keyword, const unsigned int step) const
     return next->second;
   const auto &[t0, a0] = *(next - 1);
   const double share   = (time - t0) / (next->first - t0);
-  return a0 + share * (next->second - a0);
+  const double rise =
+    table.is_smooth ? share * share * share * (10. + share * (-15. + 6. * share)) : share;
+  return a0 + rise * (next->second - a0);
 }
 } // namespace snug::deck

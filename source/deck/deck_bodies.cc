@@ -98,7 +98,7 @@ std::set<unsigned int> DeckBodies::faces_on(const unsigned int b, const std::str
   for (const auto &face : optional->second.faces)
     add(sorted(face.corners));
   for (unsigned int face = 0; face < body.outer.size(); ++face)
-    if (optional->second.has_corners(body.outer[face]))
+    if (optional->second.has_face(mesh, body.outer[face]))
       result.insert(face);
   return result;
 }
@@ -227,6 +227,14 @@ std::optional<std::string> DeckBodies::boundary_at(const unsigned int b,
           return set;
     }
   return face_name(b, found->second);
+}
+
+std::optional<unsigned int> DeckBodies::body_at(const unsigned int node) const
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].face_at.count(node) > 0)
+      return b;
+  return {};
 }
 
 std::vector<double> DeckBodies::position(const unsigned int node) const

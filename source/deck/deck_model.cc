@@ -11,12 +11,28 @@ using mesh_file::upper_case;
 using Words = std::vector<std::string>;
 
 namespace {
-/// Keywords that are read with the mesh, with whether data lines may follow.
-const std::map<std::string, bool> read_elsewhere = {
-  {"HEADING", true},      {"NODE", true},      {"ELSET", true},        {"NSET", true},
-  {"SURFACE", true},      {"PART", false},     {"ENDPART", false},     {"ASSEMBLY", false},
-  {"ENDASSEMBLY", false}, {"INSTANCE", true},  {"ENDINSTANCE", false}, {"TRANSFORM", true},
-  {"AMPLITUDE", true},    {"PREPRINT", false}, {"PARAMETER", true}};
+/// A keyword that is read with the mesh.
+struct ReadElsewhere
+{
+  bool                  takes_lines; ///< whether data lines follow
+  std::set<std::string> options;
+};
+
+const std::map<std::string, ReadElsewhere> read_elsewhere = {
+  {"HEADING", {true, {}}},
+  {"NODE", {true, {"NSET", "SYSTEM"}}},
+  {"ELSET", {true, {"ELSET", "GENERATE", "INSTANCE", "INTERNAL"}}},
+  {"NSET", {true, {"NSET", "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"}}},
+  {"SURFACE", {true, {"NAME", "TYPE", "INTERNAL"}}},
+  {"PART", {false, {"NAME"}}},
+  {"ENDPART", {false, {}}},
+  {"ASSEMBLY", {false, {"NAME"}}},
+  {"ENDASSEMBLY", {false, {}}},
+  {"INSTANCE", {true, {"NAME", "PART"}}},
+  {"ENDINSTANCE", {false, {}}},
+  {"TRANSFORM", {true, {"NSET", "TYPE"}}},
+  {"AMPLITUDE", {true, {"NAME", "DEFINITION", "TIME", "VALUE", "SMOOTH"}}},
+  {"PREPRINT", {false, {"ECHO", "MODEL", "HISTORY", "CONTACT", "PARVALUES", "PARSUBSTITUTION"}}}};
 
 /// Requests for output, controls, and data that a static, isothermal state does not depend on.
 const std::set<std::string> without_effect = {"NODEFILE",
@@ -108,7 +124,10 @@ void read_keyword(Reading &reading, const KeywordReadings &readings, const Keywo
     reading.remarks.not_needed(title_of(keyword), keyword.line);
   else if (elsewhere != read_elsewhere.end())
     {
-      if (!elsewhere->second)
+      for (const auto &option : keyword.options)
+        if (elsewhere->second.options.count(option.first) == 0)
+          reading.lacks(keyword, ": the option " + option.first);
+      if (!elsewhere->second.takes_lines)
         require_no_lines(reading, keyword);
       if (keyword.name == "HEADING")
         read_heading(reading, keyword);
@@ -184,6 +203,7 @@ DeckModel read_model(const mesh_file::DeckText &text,
 {
   Reading         reading{text, deck, bodies, remarks};
   KeywordReadings readings = material_readings(reading);
+  readings.merge(support_readings(reading));
   readings.merge(load_readings(reading));
   readings.merge(rigid_readings(reading));
   readings.merge(contact_readings(reading));

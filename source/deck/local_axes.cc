@@ -96,8 +96,9 @@ bool LocalAxes::is_normal(const std::vector<unsigned int> &corners,
   Point centre;
   for (const unsigned int corner : corners)
     {
+      // A corner may have equal axes of another *TRANSFORM.
       const auto other = of_nodes.find(corner);
-      if (other == of_nodes.end() || other->second != of->second)
+      if (other == of_nodes.end() || !are_equal(axes[other->second], axes[of->second]))
         return false;
       centre += points[corner] / static_cast<double>(corners.size());
     }

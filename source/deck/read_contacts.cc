@@ -1,6 +1,6 @@
 #include <snug/base/values.h>
-#include <snug/deck/face_gaps.h>
 #include <snug/deck/keyword_reader.h>
+#include <snug/mesh_file/face_gaps.h>
 
 #include <algorithm>
 #include <memory>
@@ -74,7 +74,7 @@ public:
       bool               is_used = false;
       for (const unsigned int s : slaves)
         for (const unsigned int m : masters)
-          if (s != m && (is_one || gaps(contact = with_bodies(contact, s, m)).n_nodes > 0))
+          if (s != m && (is_one || is_near(contact = with_bodies(contact, s, m))))
             {
               contact = with_bodies(contact, s, m);
               is_used = true;
@@ -98,7 +98,8 @@ public:
       if (contact.slave == slave && contact.master == master)
         {
           is_found = true;
-          set_gap(keyword, contact, gaps(contact), value);
+          set_gap(keyword, contact, gaps(contact, slave_size(contact) + 2. * std::abs(value)),
+                  value);
         }
     if (!is_found)
       throw keyword_error(keyword, "there is no *CONTACT PAIR of these surfaces");
@@ -110,21 +111,25 @@ public:
     interaction.clear();
   }
 
-  /// Read lines "surface, surface", where a missing name stands for all outer faces.
+  /// Add the pairs of general contact, which the mesh has found.
   void read_inclusions(const Keyword &keyword)
   {
-    if (keyword.has("ALLEXTERIOR") || keyword.has("ALLELEMENTBASED"))
-      return add_general(keyword, "", "", keyword.line);
-    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
-      const auto set = [&](const std::size_t i) {
-        return words.size() > i && !words[i].empty() ? reading.surface(words[i], line) : "";
-      };
-      const auto first = set(0), second = set(1);
-      for (const auto &name : {first, second})
-        if (!name.empty() && !reading.use(keyword, name, line))
-          return;
-      add_general(keyword, first, second, line);
-    });
+    if (general_line == 0)
+      throw keyword_error(keyword, keyword.title + " must follow *CONTACT");
+    for (const auto &pair : reading.deck.general_pairs)
+      if (pair.begin == keyword.begin && reading.use(keyword, pair.first, keyword.line) &&
+          reading.use(keyword, pair.second, keyword.line))
+        {
+          DeckModel::Contact contact{pair.first, pair.second, 0, 0, interaction, 0., keyword.line};
+          contact            = with_bodies(contact, reading.bodies.bodies_of(pair.first).front(),
+                                           reading.bodies.bodies_of(pair.second).front());
+          contact.is_general = true;
+          contact.reach      = pair.reach;
+          model.contacts.push_back(contact);
+          reading.remarks.replaced("the pair '" + pair.first + "' with gaps from " +
+                                     to_text(pair.least_gap) + " for general contact",
+                                   keyword.line);
+        }
   }
 
   /// Read a line ", , interaction", which holds for all contacts.
@@ -165,33 +170,29 @@ private:
     return contact;
   }
 
-  BodyFaces slaves(const DeckModel::Contact &contact) const
+  mesh_file::Faces faces(const unsigned int body, const std::string &set) const
   {
-    return {contact.slave_body, reading.bodies.faces_on(contact.slave_body, contact.slave)};
+    mesh_file::Faces result;
+    for (const unsigned int face : reading.bodies.faces_on(body, set))
+      result.push_back(reading.bodies.all()[body].outer[face]);
+    return result;
   }
 
-  BodyFaces masters(const DeckModel::Contact &contact) const
+  /// Return whether the sides of a contact between several bodies are a face from each other.
+  bool is_near(const DeckModel::Contact &contact) const
   {
-    return {contact.master_body, reading.bodies.faces_on(contact.master_body, contact.master)};
+    return !gaps(contact, slave_size(contact)).faces.empty();
   }
 
-  /// Return the distance within which faces may come into contact: the size of a face of both sides
-  /// and the largest prescribed displacement.
-  double reach(const DeckModel::Contact &contact) const
+  double slave_size(const DeckModel::Contact &contact) const
   {
-    double result  = std::max(mean_size(reading.bodies, slaves(contact)),
-                              mean_size(reading.bodies, masters(contact)));
-    double largest = 0.;
-    for (const auto *steps : {&model.initial, model.steps.empty() ? nullptr : &model.steps.back()})
-      if (steps != nullptr)
-        for (const auto &given : steps->prescribed)
-          largest = std::max(largest, std::abs(given.value));
-    return result + largest;
+    return mesh_file::mean_size(reading.deck.mesh.points, faces(contact.slave_body, contact.slave));
   }
 
-  FaceGaps gaps(const DeckModel::Contact &contact) const
+  mesh_file::FaceGaps gaps(const DeckModel::Contact &contact, const double reach) const
   {
-    return face_gaps(reading.bodies, slaves(contact), masters(contact), reach(contact));
+    return mesh_file::face_gaps(reading.deck.mesh.points, faces(contact.slave_body, contact.slave),
+                     faces(contact.master_body, contact.master), reach);
   }
 
   /// Read a pair of a surface and a rigid one. Return whether it is one.
@@ -231,63 +232,27 @@ private:
     const bool is_number = given.find_first_not_of("0123456789.eE+-") == std::string::npos;
     if (!is_number)
       return reading.lacks(keyword, ": the option ADJUST with a set");
-    const auto near =
-      face_gaps(reading.bodies, slaves(contact), masters(contact), to_number(given, keyword.line));
-    if (near.n_nodes > 0)
+    const auto near = gaps(contact, to_number(given, keyword.line));
+    if (!near.faces.empty())
       set_gap(keyword, contact, near, 0.);
   }
 
   /// Let the gap of a contact be @p wanted, if that of the mesh is uniform.
-  void set_gap(const Keyword      &keyword,
-               DeckModel::Contact &contact,
-               const FaceGaps     &mesh,
-               const double        wanted)
+  void set_gap(const Keyword             &keyword,
+               DeckModel::Contact        &contact,
+               const mesh_file::FaceGaps &mesh,
+               const double               wanted)
   {
-    const double rounding = closed_gap * mean_size(reading.bodies, slaves(contact));
-    if (mesh.n_nodes > 0 &&
+    const double rounding = closed_gap * slave_size(contact);
+    if (!mesh.faces.empty() &&
         std::max(std::abs(mesh.least - wanted), std::abs(mesh.largest - wanted)) <= 1e-3 * rounding)
       return;
-    if (mesh.n_nodes == 0 || !mesh.is_whole || mesh.largest - mesh.least > rounding)
+    if (mesh.faces.empty() || !mesh.is_whole || mesh.largest - mesh.least > rounding)
       return reading.lacks(keyword, " that changes gaps which are not uniform");
     contact.gap = wanted - 0.5 * (mesh.least + mesh.largest);
     reading.remarks.replaced("the gap " + to_text(wanted) + " instead of that of the mesh for " +
                                title_of(keyword),
                              keyword.line);
-  }
-
-  /// Add the contacts of general contact: pairs of bodies whose faces are within reach.
-  void add_general(const Keyword      &keyword,
-                   const std::string  &first,
-                   const std::string  &second,
-                   const unsigned long line)
-  {
-    if (general_line == 0)
-      throw keyword_error(keyword, keyword.title + " must follow *CONTACT");
-    const unsigned int n = reading.bodies.all().size();
-    for (unsigned int s = 0; s < n; ++s)
-      for (unsigned int m = first == second ? s + 1 : 0; m < n; ++m)
-        {
-          DeckModel::Contact contact{first, second, s, m, interaction, 0., line};
-          contact.is_general = true;
-          if (s == m || slaves(contact).faces.empty() || masters(contact).faces.empty())
-            continue;
-          const auto near  = gaps(contact);
-          auto       other = contact;
-          std::swap(other.slave, other.master);
-          std::swap(other.slave_body, other.master_body);
-          const auto opposite = gaps(other);
-          if (near.faces.empty() || opposite.faces.empty())
-            continue;
-          contact.slave_faces  = near.faces;
-          contact.master_faces = opposite.faces;
-          contact.reach        = reach(contact);
-          model.contacts.push_back(contact);
-          reading.remarks.replaced("the pair " + reading.bodies.all()[s].name + " and " +
-                                     reading.bodies.all()[m].name + " with gaps from " +
-                                     to_text(std::min(near.least, opposite.least)) +
-                                     " for general contact",
-                                   line);
-        }
   }
 };
 } // namespace

@@ -1,6 +1,7 @@
 #include <snug/deck/amplitudes.h>
 #include <snug/deck/keyword_reader.h>
 #include <snug/deck/local_axes.h>
+#include <snug/deck/step_items.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,30 +18,7 @@ using mesh_file::upper_case;
 using Words = std::vector<std::string>;
 
 namespace {
-unsigned int step_of(const std::vector<DeckModel::Given> &sum)
-{
-  return sum.front().step;
-}
-
-/// Return the reference nodes of all rigid bodies, which may follow their supports in the deck.
-std::set<unsigned int> reference_nodes(const Reading &reading)
-{
-  std::set<unsigned int> result;
-  for (const auto &keyword : reading.text.keywords())
-    if (keyword.name == "RIGIDBODY" && keyword.has("REFNODE"))
-      for (const unsigned int node :
-           reading.deck.sets.nodes(keyword.option("REFNODE"), "", keyword.title, keyword.line))
-        result.insert(node);
-  return result;
-}
-
-template <typename Item>
-unsigned int step_of(const Item &item)
-{
-  return item.step;
-}
-
-/// This class reads the supports and the loads of the steps.
+/// This class reads the steps and their loads.
 class LoadReader
 {
 public:
@@ -50,17 +28,16 @@ public:
     , dim(reading.bodies.dimension())
     , amplitudes(reading.text)
     , axes(reading.text, reading.deck)
-    , references(reference_nodes(reading))
   {}
 
   void begin_step(const Keyword &keyword)
   {
-    if (in_step)
+    if (reading.in_step)
       throw keyword_error(keyword, "*STEP within a step; *END STEP is missing");
     if (keyword.has("NLGEOM") && upper_case(keyword.option("NLGEOM")) != "NO")
       reading.remarks.replaced("small displacements instead of NLGEOM", keyword.line);
-    in_step = true;
-    ++n_steps;
+    reading.in_step = true;
+    ++reading.n_steps;
     auto &steps = reading.model.steps;
     steps.push_back(steps.empty() ? reading.model.initial : steps.back());
     steps.back().name = keyword.option("NAME");
@@ -69,40 +46,12 @@ public:
 
   void end_step(const Keyword &keyword)
   {
-    if (!in_step)
+    if (!reading.in_step)
       throw keyword_error(keyword, "*END STEP without *STEP");
-    in_step = false;
+    reading.in_step = false;
   }
 
   void read_static(const Keyword &keyword) { require_step(keyword); }
-
-  /// Read a line "node or set, first component, last component, value", or "set, ENCASTRE".
-  void read_boundary(const Keyword &keyword)
-  {
-    if (is_new(keyword))
-      {
-        drop_earlier(current().prescribed);
-        drop_earlier(current().held_nodes);
-        drop_earlier(current().motions);
-      }
-    std::set<std::pair<std::string, Words>> known; // lines with the same data are one set
-    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
-      if (words.size() < 2)
-        throw error_at_line(line, "a set and its components are expected");
-      const auto key    = sets.find(sets.of_nodes, words[0], "");
-      const auto listed = sets.of_lines.find(mesh_file::DeckSets::group(keyword, words));
-      if (listed == sets.of_lines.end() && key.empty())
-        throw error_at_line(line, "there is no node set '" + words[0] + "'");
-      const auto set        = key.empty() ? listed->second : sets.boundary_of_nodes(key);
-      const auto components = components_of(keyword, words, line);
-      if (!known.emplace(set, Words(words.begin() + 1, words.end())).second)
-        return;
-      if (is_motion(keyword, words, line))
-        return;
-      const double given = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
-      hold(keyword, set, components, {given * factor(keyword), line, n_steps});
-    });
-  }
 
   /// Read a line "surface, P, pressure" or "surface, TRVEC, magnitude, direction".
   void read_surface_load(const Keyword &keyword)
@@ -117,9 +66,9 @@ public:
       if (!reading.use(keyword, set, line))
         return;
       if (type == "P")
-        add(keyword, current().pressures, set, {numbers[0]}, line);
+        add(keyword, reading.current().pressures, set, {numbers[0]}, line);
       else
-        add(keyword, current().tractions, set, vector_from(numbers), line);
+        add(keyword, reading.current().tractions, set, vector_from(numbers), line);
     });
   }
 
@@ -132,11 +81,12 @@ public:
       const auto type   = words.size() > 2 ? upper_case(words[1]) : "";
       const auto listed = sets.of_lines.find(mesh_file::DeckSets::group(keyword, words));
       if (type == "GRAV")
-        read_gravity(keyword, words, line);
-      else if (type.size() != 2 || type[0] != 'P' || listed == sets.of_lines.end())
-        reading.lacks(keyword, " of type '" + type + "'", line);
-      else if (known.insert(listed->second).second && reading.use(keyword, listed->second, line))
-        add(keyword, current().pressures, listed->second, {to_number(words[2], line)}, line);
+        return read_gravity(keyword, words, line);
+      if (type.size() != 2 || type[0] != 'P' || listed == sets.of_lines.end())
+        return reading.lacks(keyword, " of type '" + type + "'", line);
+      for (const auto &set : listed->second)
+        if (known.insert(set).second && reading.use(keyword, set, line))
+          add(keyword, reading.current().pressures, set, {to_number(words[2], line)}, line);
     });
   }
 
@@ -160,10 +110,10 @@ public:
           for (unsigned int c = 0; c < dim; ++c)
             if (direction[c] != 0.)
               {
-                auto &sum = current().point_forces[{node, c}];
-                if (!sum.empty() && step_of(sum) < n_steps)
+                auto &sum = reading.current().point_forces[{node, c}];
+                if (!sum.empty() && step_of(sum) < reading.n_steps)
                   sum.clear();
-                sum.push_back({force * direction[c], line, n_steps});
+                sum.push_back({force * direction[c], line, reading.n_steps});
               }
         }
     });
@@ -176,7 +126,7 @@ public:
     if (is_initial && upper_case(keyword.option("TYPE")) != "TEMPERATURE")
       return reading.lacks(keyword, " of type " + keyword.option("TYPE"));
     if (is_new(keyword))
-      drop_earlier(current().temperatures);
+      drop_earlier(reading.current().temperatures, reading.n_steps);
     reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (words.size() < 2)
         throw error_at_line(line, "a node or set and a temperature are expected");
@@ -185,69 +135,40 @@ public:
         if (is_initial)
           reading.model.initial_temperatures[node] = value;
         else
-          current().temperatures[node] = {value, line, n_steps};
+          reading.current().temperatures[node] = {value, line, reading.n_steps};
     });
   }
 
 private:
-  Reading                     &reading;
-  const mesh_file::DeckSets   &sets;
-  const unsigned int           dim;
-  const Amplitudes             amplitudes;
-  const LocalAxes              axes;
-  const std::set<unsigned int> references; ///< reference nodes of rigid bodies
-  unsigned int                 n_steps = 0;
-  bool                         in_step = false;
-
-  DeckModel::Step &current()
-  {
-    return n_steps == 0 ? reading.model.initial : reading.model.steps.back();
-  }
+  Reading                   &reading;
+  const mesh_file::DeckSets &sets;
+  const unsigned int         dim;
+  const Amplitudes           amplitudes;
+  const LocalAxes            axes;
 
   void require_step(const Keyword &keyword) const
   {
-    if (!in_step)
+    if (!reading.in_step)
       throw keyword_error(keyword, keyword.title + " must stand in a step");
   }
 
-  static bool is_new(const Keyword &keyword) { return upper_case(keyword.option("OP")) == "NEW"; }
-
-  double factor(const Keyword &keyword) const { return amplitudes.at_end(keyword, n_steps); }
-
-  /// Erase the items for which a condition holds.
-  template <typename Item, typename Condition>
-  static void erase_if(std::vector<Item> &items, const Condition &condition)
+  double factor(const Keyword &keyword) const
   {
-    items.erase(std::remove_if(items.begin(), items.end(), condition), items.end());
+    return amplitudes.at_end(keyword, reading.n_steps);
   }
 
-  template <typename Item>
-  void drop_earlier(std::vector<Item> &items) const
-  {
-    erase_if(items, [&](const Item &item) { return item.step < n_steps; });
-  }
-
-  template <typename Key, typename Item>
-  void drop_earlier(std::map<Key, Item> &items) const
-  {
-    for (auto item = items.begin(); item != items.end();)
-      item = step_of(item->second) < n_steps ? items.erase(item) : std::next(item);
-  }
-
-  /// Loads belong to a step. With OP = NEW those of earlier steps end.
+  /// Loads belong to a step. With OP = NEW those of earlier steps end, and *DLOAD and *DSLOAD are
+  /// one kind, as in CalculiX.
   void begin_loads(const Keyword &keyword)
   {
     require_step(keyword);
     if (!is_new(keyword))
       return;
     if (keyword.name == "CLOAD")
-      return drop_earlier(current().point_forces);
-    for (auto *loads : {&current().pressures, &current().tractions})
-      erase_if(*loads, [&](const auto &load) {
-        return load.step < n_steps && load.keyword == keyword.name;
-      });
-    if (keyword.name == "DLOAD")
-      drop_earlier(current().gravities);
+      return drop_earlier(reading.current().point_forces, reading.n_steps);
+    drop_earlier(reading.current().pressures, reading.n_steps);
+    drop_earlier(reading.current().tractions, reading.n_steps);
+    drop_earlier(reading.current().gravities, reading.n_steps);
   }
 
   /// Add a load of faces. Loads of the same faces in one step are added, and replace those of
@@ -261,32 +182,54 @@ private:
     for (auto &component : components)
       component *= factor(keyword);
     const auto is_replaced = [&](const auto &load) {
-      return load.step < n_steps && load.keyword == keyword.name &&
-             reading.bodies.have_same_faces(load.set, set);
+      return load.step < reading.n_steps && reading.bodies.have_same_faces(load.set, set);
     };
     erase_if(loads, is_replaced);
     for (const auto &load : loads)
-      if (load.step < n_steps && load.keyword == keyword.name &&
-          reading.bodies.have_common_faces(load.set, set))
+      if (load.step < reading.n_steps && reading.bodies.have_common_faces(load.set, set))
         reading.lacks(keyword, " that changes a part of the faces of an earlier step", line);
-    loads.push_back({set, components, keyword.name, line, n_steps});
+    loads.push_back({set, components, line, reading.n_steps});
   }
 
   void read_gravity(const Keyword &keyword, const Words &words, const unsigned long line)
   {
-    DeckModel::Gravity gravity{{}, vector_from(numbers_from(words, 2, line)), line, n_steps};
+    DeckModel::Gravity gravity{{},
+                               vector_from(numbers_from(words, 2, line)),
+                               line,
+                               reading.n_steps};
     for (auto &component : gravity.acceleration)
       component *= factor(keyword);
+    const auto &before = reading.current().gravities;
+    if (std::any_of(before.begin(), before.end(), [&](const auto &other) {
+          return other.step < reading.n_steps &&
+                 !is_parallel(other.acceleration, gravity.acceleration);
+        }))
+      reading.lacks(
+        keyword,
+        " GRAV of a later step along another direction, which Abaqus replaces and CalculiX adds",
+        line);
     for (unsigned int e = 0; e < reading.deck.mesh.elements.size() && words[0].empty(); ++e)
       gravity.elements.insert(e);
     if (!words[0].empty())
       for (const unsigned int e : sets.elements(words[0], "", keyword.title, line))
         gravity.elements.insert(e);
-    auto &all = current().gravities;
+    auto &all = reading.current().gravities;
     erase_if(all, [&](const auto &other) {
-      return other.step < n_steps && other.elements == gravity.elements;
+      return other.step < reading.n_steps && other.elements == gravity.elements;
     });
     all.push_back(gravity);
+  }
+
+  static bool is_parallel(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double product = 0., of_a = 0., of_b = 0.;
+    for (std::size_t d = 0; d < a.size(); ++d)
+      {
+        product += a[d] * b[d];
+        of_a += a[d] * a[d];
+        of_b += b[d] * b[d];
+      }
+    return product * product >= (1. - 1e-9) * of_a * of_b;
   }
 
   /// Return a vector of dim components from {magnitude, direction}.
@@ -298,113 +241,6 @@ private:
     for (unsigned int d = 0; d < dim; ++d)
       result.push_back(norm > 0. ? numbers[0] * numbers[1 + d] / norm : 0.);
     return result;
-  }
-
-  /// Read a line of *BOUNDARY of reference nodes of rigid bodies. Return whether it is one.
-  bool is_motion(const Keyword &keyword, const Words &words, const unsigned long line)
-  {
-    if (references.empty())
-      return false;
-    bool has_motion = false;
-    for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
-      if (references.count(node) > 0)
-        {
-          has_motion = true;
-          // ENCASTRE and the like hold all components.
-          const bool   is_number = words[1].find_first_not_of("0123456789") == std::string::npos;
-          const auto   first     = is_number ? to_whole(words[1], line) : 1;
-          const auto   last      = !is_number ? 6
-                                   : words.size() > 2 && !words[2].empty() ? to_whole(words[2], line)
-                                                                           : first;
-          const double value =
-            words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
-          for (auto c = std::max(1ul, first); c <= std::min(6ul, last); ++c)
-            current().motions[{node, c - 1}] = {value * factor(keyword), line, n_steps};
-        }
-    return has_motion;
-  }
-
-  /// Return the components, from 0, of a line of *BOUNDARY that a model of solids has.
-  std::vector<unsigned int>
-  components_of(const Keyword &keyword, const Words &words, const unsigned long line)
-  {
-    static const std::map<std::string, std::vector<unsigned int>> names = {
-      {"ENCASTRE", {0, 1, 2}}, {"PINNED", {0, 1, 2}}, {"XSYMM", {0}},     {"YSYMM", {1}},
-      {"ZSYMM", {2}},          {"XASYMM", {1, 2}},    {"YASYMM", {0, 2}}, {"ZASYMM", {0, 1}}};
-    const auto                named = names.find(upper_case(words[1]));
-    std::vector<unsigned int> components;
-    if (named != names.end())
-      components = named->second;
-    else
-      {
-        const auto first = to_whole(words[1], line);
-        const auto last  = words.size() > 2 && !words[2].empty() ? to_whole(words[2], line) : first;
-        if (first < 1 || last < first || last > 6)
-          {
-            reading.lacks(keyword, " of components other than 1 to 6", line);
-            return {};
-          }
-        for (auto c = first; c <= last; ++c)
-          components.push_back(c - 1);
-      }
-    // Nodes of solids have no rotations (4 to 6), and nodes of a plane model no third component.
-    components.erase(std::remove_if(components.begin(), components.end(),
-                                    [&](const auto c) { return c >= dim; }),
-                     components.end());
-    return components;
-  }
-
-  /// Hold the whole faces of a set, and its nodes that are on none of them.
-  void hold(const Keyword                   &keyword,
-            const std::string               &set,
-            const std::vector<unsigned int> &components,
-            const DeckModel::Given          &given)
-  {
-    auto      &step  = current();
-    const auto nodes = reading.bodies.nodes_without_face(set);
-    if (set.find_first_of(",:;=#\\+") != std::string::npos || reading.bodies.use(set))
-      {
-        if (!reading.use(keyword, set, given.line))
-          return;
-        const auto &of_set = reading.deck.mesh.optional_boundaries.at(set).nodes;
-        for (const unsigned int c : components)
-          if (const auto axis = axes.axis(of_set, c); axis && axis->first < dim)
-            step.prescribed.push_back(
-              {set, axis->first, axis->second * given.value, given.line, n_steps});
-          else if (given.value == 0. && components.size() == dim)
-            step.prescribed.push_back({set, c, 0., given.line, n_steps});
-          else if (given.value == 0. && is_normal(set, c))
-            step.prescribed.push_back({set, 3, 0., given.line, n_steps});
-          else
-            reading.lacks(keyword,
-                          " along axes of *TRANSFORM that are neither coordinate axes nor "
-                          "normals of the faces",
-                          given.line);
-      }
-    for (const unsigned int node : nodes)
-      for (const unsigned int c : components)
-        if (const auto axis = axes.axis({node}, c); axis && axis->first < dim)
-          step.held_nodes[{node, axis->first}] = {axis->second * given.value, given.line, n_steps};
-        else if (given.value == 0. && components.size() == dim)
-          step.held_nodes[{node, c}] = given;
-        else
-          reading.lacks(keyword, " of nodes along axes of *TRANSFORM that are no coordinate axes",
-                        given.line);
-    if (!nodes.empty())
-      reading.remarks.replaced("point supports for nodes of " + title_of(keyword) +
-                                 " that are not those of whole faces; stresses there depend on the "
-                                 "mesh",
-                               given.line);
-    else if (!reading.bodies.use(set))
-      reading.remarks.not_needed(title_of(keyword) + " of nodes that belong to no cell",
-                                 given.line);
-  }
-
-  bool is_normal(const std::string &set, const unsigned int component) const
-  {
-    const auto faces = reading.bodies.faces_of(set);
-    return std::all_of(faces.begin(), faces.end(),
-                       [&](const auto &corners) { return axes.is_normal(corners, component); });
   }
 };
 } // namespace
@@ -424,7 +260,6 @@ KeywordReadings load_readings(Reading &reading)
            {by(&M::read_static),
             {{},
              {"DIRECT", "SOLVER", "STABILIZE", "ALLSDTOL", "CONTINUE", "FACTOR", "TIMERESET"}}}},
-          {"BOUNDARY", {by(&M::read_boundary), {load, {}}}},
           {"DSLOAD", {by(&M::read_surface_load), {load, {"CONSTANTRESULTANT", "FOLLOWER"}}}},
           {"DLOAD", {by(&M::read_element_load), {load, {}}}},
           {"CLOAD", {by(&M::read_point_load), {load, {}}}},

@@ -32,9 +32,15 @@ public:
     if (!cells)
       return;
     if (reading.bodies.dimension() == 2)
-      model.model = type.rfind("CPE", 0) == 0   ? "plane strain"
-                    : type.rfind("CAX", 0) == 0 ? "axisymmetric"
-                                                : "plane stress";
+      {
+        const std::string kind = type.rfind("CPE", 0) == 0   ? "plane strain"
+                                 : type.rfind("CAX", 0) == 0 ? "axisymmetric"
+                                                             : "plane stress";
+        if (model.model != "solid" && model.model != kind)
+          throw keyword_error(keyword, "elements of " + model.model + " and of " + kind +
+                                         " in one model are not supported");
+        model.model = kind;
+      }
     const bool is_simplex = cells->shape == mesh_file::ElementShape::tetrahedron ||
                             cells->shape == mesh_file::ElementShape::triangle ||
                             cells->shape == mesh_file::ElementShape::prism;
@@ -90,8 +96,12 @@ public:
           model.region_of[e]   = name[0] == '_' || key.empty() ? of : sets.spelling.at(key);
         }
     const auto numbers = reading.first_line(keyword);
-    if (!numbers.empty() && numbers[0] > 0. && model.model.rfind("plane", 0) == 0)
-      model.thickness = numbers[0];
+    if (model.model.rfind("plane", 0) != 0)
+      return;
+    const double thickness = !numbers.empty() && numbers[0] > 0. ? numbers[0] : 1.;
+    if (model.thickness && *model.thickness != thickness)
+      throw keyword_error(keyword, "sections of different thicknesses are not supported");
+    model.thickness = thickness;
   }
 
   /// Read the stiffness of springs: a line of the component, then a line of the stiffness.

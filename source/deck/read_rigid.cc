@@ -57,7 +57,8 @@ const Keyword *analytical(const Reading &reading, const std::string &word)
   return nullptr;
 }
 
-/// Return a number with 12 digits, which drops the round-off of a fit, and without the sign of zero.
+/// Return a number with 12 digits, which drops the round-off of a fit, and without the sign of
+/// zero.
 double rounded(const double number)
 {
   std::ostringstream text;

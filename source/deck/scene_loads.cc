@@ -11,6 +11,9 @@ using Lines = std::vector<unsigned long>;
 /// Component -> what a line of a deck prescribes
 using Held = std::map<unsigned int, const DeckModel::PrescribedComponent *>;
 
+/// Number of forces of nodes up to which they are meant as forces at points, and not on faces.
+const std::size_t most_local_forces = 20;
+
 /// This class collects the entries.
 class Collector
 {
@@ -203,6 +206,9 @@ private:
           entry.add_line(spring.line);
         }
     result.of_bodies[b].push_back(entry);
+    for (const auto &spring : model.springs)
+      if (b == 0 && !bodies.body_at(spring.node))
+        remarks.lacks("spring", "*SPRING of nodes on no boundary of a body", spring.line);
   }
 
   void add_loads(const Step &step, const unsigned int b, std::vector<Entry> &entries)
@@ -273,21 +279,12 @@ private:
     return entry;
   }
 
-  /// Return the body that has a node on its boundary, or nothing.
-  std::optional<unsigned int> body_of(const unsigned int node) const
-  {
-    for (unsigned int b = 0; b < bodies.all().size(); ++b)
-      if (bodies.all()[b].face_at.count(node) > 0)
-        return b;
-    return {};
-  }
-
   void add_point_forces(const Step &step, const unsigned int b, std::vector<Entry> &entries) const
   {
     std::map<unsigned int, std::vector<double>> forces; // by node
     std::map<unsigned int, Lines>               lines;
     for (const auto &[place, sum] : step.point_forces)
-      if (body_of(place.first) == b)
+      if (bodies.body_at(place.first) == b)
         for (const auto &given : sum)
           {
             auto &force = forces[place.first];
@@ -305,8 +302,15 @@ private:
   /// Note forces that have no place on a body.
   void require_places(const Step &step)
   {
+    // Consistent forces of faces of elements without inner nodes are not those of Snug's elements.
+    if (model.degree == 2 && step.point_forces.size() > most_local_forces)
+      remarks.replaced(
+        "point forces on elements of degree 2 with nodes inside of faces instead of "
+        "*CLOAD of many nodes, near which displacements and stresses differ; *DSLOAD "
+        "states loads of faces",
+        step.point_forces.begin()->second.front().line);
     for (const auto &[place, sum] : step.point_forces)
-      if (!body_of(place.first))
+      if (!bodies.body_at(place.first))
         for (const auto &given : sum)
           remarks.lacks("cload", "*CLOAD of nodes on no boundary of a body", given.line);
   }
@@ -344,6 +348,16 @@ private:
     return {};
   }
 
+  void require_density(const std::vector<unsigned int> &cells, const unsigned long line) const
+  {
+    for (const auto &material : model.materials)
+      for (const unsigned int e : cells)
+        if (material.density == 0. &&
+            mesh_file::upper_case(material.name) == model.material_of.at(e))
+          throw mesh_file::error_at_line(line, "gravity needs the *DENSITY of *MATERIAL '" +
+                                                 material.name + "'");
+  }
+
   /// Return the acceleration of a step if it is equal in all bodies.
   std::string gravity_of(const Step &step)
   {
@@ -358,6 +372,8 @@ private:
           if (n > 0 && n < static_cast<long>(cells.size()))
             remarks.lacks("dload", "*DLOAD: gravity of a part of a body", gravity.line);
           else if (n > 0)
+            require_density(cells, gravity.line);
+          if (n == static_cast<long>(cells.size()))
             for (unsigned int d = 0; d < bodies.dimension(); ++d)
               of_bodies[b][d] += gravity.acceleration[d];
         }

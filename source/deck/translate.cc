@@ -213,8 +213,6 @@ private:
     if (of.obstacle)
       return side(of.slave_body, bodies.faces_on(of.slave_body, of.slave)) + ": " +
              model.obstacles[*of.obstacle].name;
-    if (of.is_general)
-      return side(of.slave_body, of.slave_faces) + ": " + side(of.master_body, of.master_faces);
     return side(of.slave_body, bodies.faces_on(of.slave_body, of.slave)) + ": " +
            side(of.master_body, bodies.faces_on(of.master_body, of.master));
   }

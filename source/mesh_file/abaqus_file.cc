@@ -1,3 +1,4 @@
+#include <snug/geometry/cell_numbering.h>
 #include <snug/mesh_file/deck_parts.h>
 #include <snug/mesh_file/deck_sets.h>
 #include <snug/mesh_file/deck_text.h>
@@ -35,7 +36,8 @@ public:
         read_keyword(keywords[k], "");
     add_node_sets();
     name_connected_cells(mesh);
-    return {std::move(mesh), std::move(sets), std::move(point_elements)};
+    auto pairs = general_pairs(deck, sets, mesh);
+    return {std::move(mesh), std::move(sets), std::move(point_elements), std::move(pairs)};
   }
 
 private:
@@ -46,6 +48,9 @@ private:
   MeshFile                             mesh;
   DeckSets                             sets;
   std::map<unsigned int, PointElement> point_elements;
+  /// key of lines of *DLOAD and sorted corners of a face -> number of its loads
+  std::map<std::pair<std::pair<std::size_t, std::string>, std::vector<unsigned int>>, unsigned int>
+    n_loads;
 
   /// Read the instance that keyword @p k begins, and return the index of its last keyword.
   std::size_t read_instance(const std::size_t k)
@@ -68,23 +73,6 @@ private:
     for (std::size_t own = k + 1; own < end; ++own)
       read_keyword(keywords[own], prefix);
     return end;
-  }
-
-  /// Refuse keywords that place or generate nodes and elements, because they change the mesh.
-  static void refuse_generation(const Keyword &keyword)
-  {
-    static const std::set<std::string> others = {"NGEN",  "NFILL",  "NCOPY",   "NMAP",
-                                                 "ELGEN", "ELCOPY", "INCLUDE", "SYSTEM"};
-    const bool                         data   = keyword.name == "NODE" || keyword.name == "ELEMENT";
-    const auto                         system = upper_case(keyword.option("SYSTEM"));
-    std::string                        what;
-    if (keyword.name == "NODE" && !system.empty() && system != "R")
-      what = "*NODE with SYSTEM = " + system;
-    else if (others.count(keyword.name) > 0 || (data && keyword.has("INPUT")))
-      what = keyword.title + (data ? " with INPUT" : "");
-    if (!what.empty())
-      throw keyword_error(keyword, what + " is not supported; write all nodes and elements to "
-                                          "one file, in Cartesian coordinates");
   }
 
   void read_keyword(const Keyword &keyword, const std::string &prefix)
@@ -302,32 +290,35 @@ private:
       }
   }
 
-  /// Return the optional boundary of the lines of a keyword that have the same data as @p words. It
-  /// is named by the first of these lines, "Dload-17"; lines of several files may have one number.
-  MeshFile::OptionalBoundary &boundary_of(const Keyword &keyword, const Words &words)
+  /// Add an optional boundary for the lines of a keyword that have the same data as @p words. It is
+  /// named by the first of these lines, "Dload-17"; lines of several files may have one number.
+  std::string add_boundary(const Keyword &keyword, const Words &words)
   {
-    auto &name = sets.of_lines[DeckSets::group(keyword, words)];
-    if (name.empty())
-      {
-        const std::string first =
-          (keyword.name == "DLOAD" ? "Dload-" : "Boundary-") + std::to_string(at);
-        name = first;
-        for (unsigned int n = 2; mesh.optional_boundaries.count(name) > 0; ++n)
-          name = first + "-" + std::to_string(n);
-      }
-    return mesh.optional_boundaries[name];
+    const std::string first =
+      (keyword.name == "DLOAD" ? "Dload-" : "Boundary-") + std::to_string(at);
+    std::string name = first;
+    for (unsigned int n = 2; mesh.optional_boundaries.count(name) > 0; ++n)
+      name = first + "-" + std::to_string(n);
+    sets.of_lines[DeckSets::group(keyword, words)].push_back(name);
+    mesh.optional_boundaries[name];
+    return name;
   }
 
-  /// Read a line "element or set, P3, pressure" of *DLOAD.
+  /// Read a line "element or set, P3, pressure" of *DLOAD. A face that is loaded again by equal
+  /// data belongs to a further boundary, because its pressures are added.
   void read_pressure(const Words &words, const Keyword &keyword, const std::string &prefix)
   {
     if (words.size() < 3 || words[1].size() != 2 || upper_case(words[1])[0] != 'P')
       return;
-    auto &boundary = boundary_of(keyword, words);
+    const auto key = DeckSets::group(keyword, words);
     for (const unsigned int element : sets.elements(words[0], prefix, keyword.title, at))
       {
-        const auto &cell = mesh.elements[element];
-        boundary.faces.push_back(face_of(cell, face_number(cell, words[1], 'P'), ""));
+        const auto &cell  = mesh.elements[element];
+        const auto  face  = face_of(cell, face_number(cell, words[1], 'P'), "");
+        const auto  times = n_loads[{key, geometry::sorted(face.corners)}]++;
+        const auto &names = sets.of_lines[key];
+        const auto  name  = times < names.size() ? names[times] : add_boundary(keyword, words);
+        mesh.optional_boundaries[name].faces.push_back(face);
       }
   }
 
@@ -336,8 +327,10 @@ private:
   {
     if (!sets.find(sets.of_nodes, words[0], prefix).empty())
       return;
+    const auto &names = sets.of_lines[DeckSets::group(keyword, words)];
+    const auto  name  = names.empty() ? add_boundary(keyword, words) : names[0];
     for (const unsigned int node : sets.nodes(words[0], prefix, keyword.title, at))
-      boundary_of(keyword, words).nodes.insert(node);
+      mesh.optional_boundaries[name].nodes.insert(node);
   }
 
   /// Read a section. Elements of an internal set of Abaqus/CAE are in the group of their material.

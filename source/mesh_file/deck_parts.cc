@@ -4,6 +4,22 @@
 #include <algorithm>
 
 namespace snug::mesh_file {
+void refuse_generation(const Keyword &keyword)
+{
+  static const std::set<std::string> others = {"NGEN",  "NFILL",  "NCOPY",   "NMAP",
+                                               "ELGEN", "ELCOPY", "INCLUDE", "SYSTEM"};
+  const bool                         data   = keyword.name == "NODE" || keyword.name == "ELEMENT";
+  const auto                         system = upper_case(keyword.option("SYSTEM"));
+  std::string                        what;
+  if (keyword.name == "NODE" && !system.empty() && system != "R")
+    what = "*NODE with SYSTEM = " + system;
+  else if (others.count(keyword.name) > 0 || (data && keyword.has("INPUT")))
+    what = keyword.title + (data ? " with INPUT" : "");
+  if (!what.empty())
+    throw keyword_error(keyword, what + " is not supported; write all nodes and elements to "
+                                        "one file, in Cartesian coordinates");
+}
+
 std::size_t DeckParts::end_of(const std::size_t k) const
 {
   for (std::size_t e = k + 1; e < keywords.size(); ++e)

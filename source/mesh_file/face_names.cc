@@ -120,7 +120,7 @@ void FaceNames::name_optional(const std::string &name)
   const auto            &nodes = found->second.nodes;
   std::set<unsigned int> used;
   for (const auto &face : outer)
-    if (found->second.has_corners(face))
+    if (found->second.has_face(file, face))
       {
         name_face({face_shape(face), face, {}, 0, 0}, name);
         used.insert(face.begin(), face.end());

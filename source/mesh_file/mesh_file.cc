@@ -33,10 +33,20 @@ unsigned int n_corners(const ElementShape shape)
   return row(shape).n_corners;
 }
 
-bool MeshFile::OptionalBoundary::has_corners(const std::vector<unsigned int> &corners) const
+bool MeshFile::OptionalBoundary::has_face(const MeshFile                  &mesh,
+                                          const std::vector<unsigned int> &corners) const
 {
-  return std::all_of(corners.begin(), corners.end(),
-                     [&](const unsigned int corner) { return nodes.count(corner) > 0; });
+  const auto has = [&](const unsigned int node) { return nodes.count(node) > 0; };
+  if (!std::all_of(corners.begin(), corners.end(), has))
+    return false;
+  for (std::size_t i = 0; i < corners.size() && !mesh.middles.empty(); ++i)
+    {
+      const unsigned int a = corners[i], b = corners[(i + 1) % corners.size()];
+      const auto         middle = mesh.middles.find({std::min(a, b), std::max(a, b)});
+      if (middle != mesh.middles.end() && !has(middle->second))
+        return false;
+    }
+  return true;
 }
 
 std::string count_shapes(const std::vector<MeshFile::Element> &elements)

@@ -21,7 +21,7 @@ const double held_cut = 1e-10;
 /// GGS - 2 W : GS + W : (W S).
 struct Integrals
 {
-  double               energy = 0., volume = 0.; ///< int sigma : G, int 1
+  double               energy = 0., volume = 0.; ///< int sigma : C^-1 sigma, int 1
   double               GGS = 0.;                 ///< int sigma : G'G
   dealii::Tensor<2, 3> GS, S, G;                 ///< int G sigma, int sigma, int G
 
@@ -37,6 +37,14 @@ struct Integrals
           visit((*matrix)[i][j]);
   }
 };
+
+/// Return sigma : C^-1 sigma, which is sigma : eps without the thermal strain. The integral of
+/// sigma : eps is zero for stresses that heat alone causes.
+double elastic_density(const elasticity::Material &material, const dealii::Tensor<2, 3> &sigma)
+{
+  const double nu = material.poissons_ratio, sum = trace(sigma);
+  return ((1. + nu) * sigma.norm_square() - nu * sum * sum) / material.youngs_modulus;
+}
 
 template <int dim>
 std::vector<Integrals> integrals(const StateSolver<dim> &solver, const ContactState<dim> &state)
@@ -60,7 +68,7 @@ std::vector<Integrals> integrals(const StateSolver<dim> &solver, const ContactSt
               const elasticity::CellPoint<dim> point(shapes[q], X, idealization);
               const auto                       G     = point.gradient(u);
               const dealii::Tensor<2, 3>       sigma = stresses[q], GS = G * sigma;
-              of_body.energy += scalar_product(G, sigma) * point.dV;
+              of_body.energy += elastic_density(assembler.material(i), sigma) * point.dV;
               of_body.volume += point.dV;
               of_body.GGS += scalar_product(G, GS) * point.dV;
               of_body.GS += GS * point.dV;

@@ -9,7 +9,7 @@ namespace snug::deck {
 class Amplitudes
 {
 public:
-  /// @throws InputError for an amplitude that is no table.
+  /// @throws InputError for an amplitude that is no table, or of the total time of several steps.
   explicit Amplitudes(const mesh_file::DeckText &text);
 
   /// Return the value of the amplitude @p name at the end of step @p step, counted from 1.
@@ -19,8 +19,8 @@ public:
 private:
   struct Table
   {
-    std::vector<std::pair<double, double>> points; ///< time, value
-    bool                                   is_of_total_time;
+    std::vector<std::pair<double, double>> points;    ///< time, value
+    bool                                   is_smooth; ///< DEFINITION = SMOOTH STEP
   };
 
   std::map<std::string, Table> tables;  ///< by name in upper case

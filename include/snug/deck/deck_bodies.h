@@ -66,6 +66,9 @@ public:
   /// boundary "free". All sets must have been used before.
   std::optional<std::string> boundary_at(unsigned int body, unsigned int node) const;
 
+  /// Return the body on whose outer faces a node lies, or nothing.
+  std::optional<unsigned int> body_at(unsigned int node) const;
+
   const dealii::Point<3> &point(const unsigned int node) const { return mesh.points[node]; }
 
   const Corners &corners_of(const unsigned int element) const

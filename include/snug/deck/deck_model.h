@@ -42,7 +42,6 @@ struct DeckModel
   {
     std::string         set;
     std::vector<double> components;
-    std::string         keyword; ///< DLOAD or DSLOAD
     unsigned long       line;
     unsigned int        step;
   };
@@ -108,7 +107,7 @@ struct DeckModel
     unsigned int        rigid_body;
   };
 
-  /// A contact of two sets of faces on one body each; the set "" are all outer faces.
+  /// A contact of two sets of faces on one body each.
   struct Contact
   {
     std::string   slave, master;
@@ -116,11 +115,10 @@ struct DeckModel
     std::string   interaction; ///< in upper case, or ""
     double        gap;         ///< added to that of the mesh [length]
     unsigned long line;
-    /// general contact: any side may be the slave side, and only faces within reach take part
-    std::optional<unsigned int> obstacle    = {}; ///< master side, instead of a body
-    bool                        is_general  = false;
-    std::set<unsigned int>      slave_faces = {}, master_faces = {};
-    double                      reach = 0.; ///< [length]
+    /// general contact: any side may be the slave side
+    std::optional<unsigned int> obstacle   = {}; ///< master side, instead of a body
+    bool                        is_general = false;
+    double                      reach      = 0.; ///< [length]
   };
 
   std::vector<Material>               materials;

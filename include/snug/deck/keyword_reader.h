@@ -33,7 +33,12 @@ struct Reading
   DeckBodies                &bodies;
   Remarks                   &remarks;
   DeckModel                  model    = {};
+  unsigned int               n_steps  = 0;
+  bool                       in_step  = false;
   std::vector<std::string>   prefixes = {""}; ///< of the instances of the current part
+
+  /// Return the supports and loads of the step that is read, or those before the first step.
+  DeckModel::Step &current() { return n_steps == 0 ? model.initial : model.steps.back(); }
 
   /// Note a part of the model that the translation lacks: "*CLOAD" + @p what.
   void lacks(const Keyword &keyword, const std::string &what, unsigned long line);
@@ -59,7 +64,10 @@ std::string title_of(const mesh_file::Keyword &keyword);
 /// Return the readings of *MATERIAL, *ELASTIC, *SOLID SECTION, *ELEMENT and the like.
 KeywordReadings material_readings(Reading &reading);
 
-/// Return the readings of *BOUNDARY, loads and steps.
+/// Return the readings of *BOUNDARY.
+KeywordReadings support_readings(Reading &reading);
+
+/// Return the readings of steps and loads.
 KeywordReadings load_readings(Reading &reading);
 
 /// Return the readings of rigid bodies.

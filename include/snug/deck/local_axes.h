@@ -43,6 +43,11 @@ private:
   std::vector<Axes>                    axes;
   std::map<unsigned int, unsigned int> of_nodes; ///< node -> index of its axes
 
+  static bool are_equal(const Axes &one, const Axes &other)
+  {
+    return one.is_cylindrical == other.is_cylindrical && one.a == other.a && one.b == other.b;
+  }
+
   Direction direction_at(const Axes &of, const dealii::Point<3> &x, unsigned int component) const;
 };
 } // namespace snug::deck

@@ -21,6 +21,10 @@ struct DeckParts
   /// names in upper case of sets that occur in the assembly or in several instances
   std::set<std::string> qualified_names;
 };
+
+/// Throw an error for a keyword that places or generates nodes and elements, because it changes the
+/// mesh.
+void refuse_generation(const Keyword &keyword);
 } // namespace snug::mesh_file
 
 #endif

@@ -46,8 +46,9 @@ struct DeckSets
   std::set<std::string>              qualified_names;
   std::map<std::string, std::string> spelling; ///< key of a set -> name of the group
   std::set<std::string>              surfaces; ///< names of the groups of faces
-  /// lines of *BOUNDARY or *DLOAD with nodes or faces -> name of the optional boundary, see group()
-  std::map<std::pair<std::size_t, std::string>, std::string> of_lines;
+  /// lines of *BOUNDARY or *DLOAD with nodes or faces -> names of the optional boundaries, see
+  /// group()
+  std::map<std::pair<std::size_t, std::string>, std::vector<std::string>> of_lines;
 
   /// Return the key of a data line in of_lines. Lines of a keyword with equal data, but different
   /// nodes or faces, have one key.
@@ -95,12 +96,29 @@ struct PointElement
   unsigned long             line;
 };
 
+/// Two optional boundaries on different bodies that general contact lets come into contact.
+struct GeneralPair
+{
+  std::string first, second;
+  std::size_t begin;     ///< Keyword::begin of *CONTACT INCLUSIONS
+  double      least_gap; ///< [length]
+  double      reach;     ///< distance within which faces take part [length]
+};
+
+/**
+ * Return the pairs of *CONTACT INCLUSIONS: faces of different bodies that face each other within
+ * the mean size of their faces and the largest displacement in *BOUNDARY. They are added to the
+ * optional boundaries of @p mesh as "BODY to OTHER". @throws InputError with the line.
+ */
+std::vector<GeneralPair> general_pairs(const DeckText &deck, const DeckSets &sets, MeshFile &mesh);
+
 /// A deck: its mesh, and the sets to which its other keywords refer.
 struct DeckMesh
 {
   MeshFile                             mesh;
   DeckSets                             sets;
   std::map<unsigned int, PointElement> point_elements; ///< by index of the element
+  std::vector<GeneralPair>             general_pairs;
 };
 
 /// Read the mesh of a deck, see read_abaqus(). @throws InputError "line 17: message".

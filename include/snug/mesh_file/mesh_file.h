@@ -55,8 +55,9 @@ struct MeshFile
     std::set<unsigned int> nodes; ///< indices into points
     std::vector<Element>   faces;
 
-    /// Return whether all corners of a face are among the nodes.
-    bool has_corners(const std::vector<unsigned int> &corners) const;
+    /// Return whether the corners of a face, and the nodes in the middles of its edges that the
+    /// mesh has, are among the nodes.
+    bool has_face(const MeshFile &mesh, const std::vector<unsigned int> &corners) const;
   };
   std::map<std::string, OptionalBoundary> optional_boundaries;
 };

@@ -8,11 +8,11 @@ namespace snug::state {
  * Return for each body how the geometric nonlinearity that the linear model leaves out would change
  * its energy. With the Green strain, the energy of a displacement with the gradient G is
  *   W = 1/2 int sigma : eps dV + 1/2 int sigma : G'G dV + ...
- * The energy of GeometricEffect is the ratio of the second integral to the first one, where
- * G is taken without the mean rotation of the body, as far as its supports leave this rotation
- * free. A force that is proportional to a displacement u gets the factor 1 + 3/2 energy, up to
- * terms of order u^2. The first integral counts as at least 1e-3 of that of all bodies, because
- * bodies without strain do not matter. Collective.
+ * with the strain eps beyond the thermal one. The energy of GeometricEffect is the ratio of the
+ * second integral to the first one, where G is taken without the mean rotation of the body, as far
+ * as its supports leave this rotation free. A force that is proportional to a displacement u gets
+ * the factor 1 + 3/2 energy, up to terms of order u^2. The first integral counts as at least 1e-3
+ * of that of all bodies, because bodies without strain do not matter. Collective.
  */
 template <int dim>
 std::vector<GeometricEffect> geometric_effects(const StateSolver<dim>  &solver,

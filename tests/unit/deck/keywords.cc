@@ -18,8 +18,8 @@ TEST(DeckKeywords, StepsWithFrictionAreLoadSteps)
   EXPECT_FALSE(first.load_step);
   EXPECT_TRUE(second.load_step);
   EXPECT_EQ(first.loads.pressure, (std::map<std::string, std::string>{{"lid.top", "5.5"}}));
-  // The second *DSLOAD replaces that of the first step, and the other loads continue.
-  EXPECT_EQ(second.loads.pressure, (std::map<std::string, std::string>{{"lid.top", "10.5"}}));
+  // The second *DSLOAD replaces the pressures of the same faces, and the other loads continue.
+  EXPECT_EQ(second.loads.pressure, (std::map<std::string, std::string>{{"lid.top", "9"}}));
   EXPECT_EQ(second.loads.traction, (std::map<std::string, std::string>{{"lid.top", "6 8"}}));
   EXPECT_EQ(second.gravity, (std::vector<double>{0., -9810.}));
   EXPECT_TRUE(first.loads.point_forces.empty());
@@ -125,7 +125,10 @@ TEST(DeckKeywords, GeneralContactPairsBodiesWithinReach)
   ASSERT_EQ(scene.contact.pairs.size(), 1u);
   EXPECT_EQ(scene.contact.pairs[0].parameters.friction_coefficient, "0.3");
   EXPECT_EQ(scene.contact.pairs[0].parameters.search_distance, 1.);
-  EXPECT_TRUE(replaces(translation, "the pair base and lid with gaps from 1 for general contact"));
+  // Only the faces that face the other body take part.
+  EXPECT_EQ(scene.contact.pairs[0].slave, "base.base to lid");
+  EXPECT_EQ(scene.contact.pairs[0].master, "lid.lid to base");
+  EXPECT_TRUE(replaces(translation, "the pair 'base to lid' with gaps from 1 for general contact"));
   EXPECT_TRUE(translation.lacking.empty());
 }
 
@@ -189,6 +192,27 @@ TEST(DeckKeywords, OutputIsNotNeededAndPartsOfTheModelAreListed)
   EXPECT_EQ(translation.lacking[2].kind, "dload");
 }
 
+TEST(DeckKeywords, PressuresOfAnElementInTwoLinesAreAdded)
+{
+  const auto text  = squares("", "*DLOAD\n3, P3, 1.5\nlid, P3, 1.5\n3, P1, 1.5\n");
+  const auto scene = scene_of(deck::translate(text, "deck.inp"), text);
+  EXPECT_EQ(scene.bodies[1].loads.pressure.size(), 2u);
+  double sum = 0.;
+  for (const auto &[boundary, pressure] : scene.bodies[1].loads.pressure)
+    sum += std::stod(pressure);
+  EXPECT_EQ(sum, 4.5);
+}
+
+TEST(DeckKeywords, LaterPressuresReplaceThoseOfTheSameFaces)
+{
+  const auto text  = squares("", "*DLOAD\n3, P3, 1.5\n*END STEP\n*STEP\n*STATIC\n"
+                                  "*DSLOAD\ntop, P, 4.\n");
+  const auto scene = scene_of(deck::translate(text, "deck.inp"), text);
+  ASSERT_EQ(scene.load_cases.size(), 2u);
+  ASSERT_EQ(scene.load_cases[1].loads.pressure.size(), 1u);
+  EXPECT_EQ(scene.load_cases[1].loads.pressure.begin()->second, "4");
+}
+
 TEST(DeckKeywords, WrongStructureIsAnError)
 {
   const std::vector<std::pair<std::string, std::string>> wrong = {
@@ -197,6 +221,10 @@ TEST(DeckKeywords, WrongStructureIsAnError)
     {"*END STEP\n*END STEP\n", "without *STEP"},
     {"*END STEP\n1, 2\n", "which has no data lines"},
     {"*END STEP\n*MATERIAL, NAME=steel\n", "occurs twice"},
+    {"*END STEP\n*AMPLITUDE, NAME=a, SHIFTX=2.\n0., 1.\n", "SHIFTX = 2. is not supported"},
+    {"*END STEP\n*STEP\n*END STEP\n*AMPLITUDE, NAME=a, TIME=TOTAL TIME\n0., 1.\n", "TOTAL TIME"},
+    {"*END STEP\n*SOLID SECTION, ELSET=lid, MATERIAL=steel\n4.\n", "different thicknesses"},
+    {"*END STEP\n*ELEMENT, TYPE=CPS4\n9, 1, 2, 5, 4\n", "plane strain and of plane stress"},
     {"*END STEP\n*CONTACT PAIR, INTERACTION=none\nunder, over\n", "no *SURFACE INTERACTION"}};
   for (const auto &[loads, message] : wrong)
     try

@@ -24,7 +24,7 @@ inline std::string squares(const std::string &keywords, const std::string &loads
          "*SURFACE, NAME=top\nlid, S3\n*SURFACE, NAME=under\nlid, S1\n*SURFACE, NAME=over\nbase, "
          "S3\n"
          "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e5, 0.3\n*DENSITY\n7.8e-9\n"
-         "*MATERIAL, NAME=rubber\n*ELASTIC\n10, 0.45\n"
+         "*MATERIAL, NAME=rubber\n*ELASTIC\n10, 0.45\n*DENSITY\n1e-9\n"
          "*SOLID SECTION, ELSET=left, MATERIAL=STEEL\n3.\n"
          "*SOLID SECTION, ELSET=right, MATERIAL=rubber\n3.\n"
          "*SOLID SECTION, ELSET=lid, MATERIAL=steel\n3.\n" +

@@ -56,7 +56,7 @@ TEST(MeshFiles, WhatIsWrongIsNamedByLineAndElement)
     {replaced(msh, "\"bottom\"", "bottom"), "line 6: a physical name in quotes"},
     {replaced(msh, "2.2 0 8", "3.0 0 8"), "version 3.0"},
     {msh.substr(0, msh.find("$Elements")), "the file has no elements"},
-    {replaced(inp, "type=C3D8", "type=B31H"), "element type 'B31H'"},
+    {replaced(inp, "type=C3D8", "type=Q31H"), "element type 'Q31H'"},
     {replaced(inp, "5, 6, \n", "5, 66, \n"), "the element 66, which does not exist"},
     {"solid part\n", "not a mesh file of Gmsh"},
     {"# vtk DataFile Version 2.0\n", "'meshio convert -o gmsh22 FILE part.msh' converts"},

@@ -1,0 +1,226 @@
+#include <snug/deck/amplitudes.h>
+#include <snug/deck/keyword_reader.h>
+#include <snug/deck/local_axes.h>
+#include <snug/deck/step_items.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace snug::deck {
+using mesh_file::error_at_line;
+using mesh_file::Keyword;
+using mesh_file::to_number;
+using mesh_file::to_whole;
+using mesh_file::upper_case;
+using Words = std::vector<std::string>;
+
+namespace {
+/// Return the reference nodes of all rigid bodies, which may follow their supports in the deck.
+std::set<unsigned int> reference_nodes(const Reading &reading)
+{
+  std::set<unsigned int> result;
+  for (const auto &keyword : reading.text.keywords())
+    if (keyword.name == "RIGIDBODY" && keyword.has("REFNODE"))
+      for (const unsigned int node :
+           reading.deck.sets.nodes(keyword.option("REFNODE"), "", keyword.title, keyword.line))
+        result.insert(node);
+  return result;
+}
+
+/// This class reads the supports of faces and nodes, and the motions of rigid bodies.
+class SupportReader
+{
+public:
+  explicit SupportReader(Reading &reading)
+    : reading(reading)
+    , sets(reading.deck.sets)
+    , dim(reading.bodies.dimension())
+    , amplitudes(reading.text)
+    , axes(reading.text, reading.deck)
+    , references(reference_nodes(reading))
+  {}
+
+  /// Read a line "node or set, first component, last component, value", or "set, ENCASTRE".
+  void read_boundary(const Keyword &keyword)
+  {
+    if (is_new(keyword))
+      {
+        drop_earlier(reading.current().prescribed, reading.n_steps);
+        drop_earlier(reading.current().held_nodes, reading.n_steps);
+        drop_earlier(reading.current().motions, reading.n_steps);
+      }
+    std::set<std::pair<std::string, Words>> known; // lines with the same data are one set
+    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (words.size() < 2)
+        throw error_at_line(line, "a set and its components are expected");
+      const auto key    = sets.find(sets.of_nodes, words[0], "");
+      const auto listed = sets.of_lines.find(mesh_file::DeckSets::group(keyword, words));
+      if (listed == sets.of_lines.end() && key.empty())
+        throw error_at_line(line, "there is no node set '" + words[0] + "'");
+      const auto set        = key.empty() ? listed->second[0] : sets.boundary_of_nodes(key);
+      const auto components = components_of(keyword, words, line);
+      if (!known.emplace(set, Words(words.begin() + 1, words.end())).second)
+        return;
+      if (is_motion(keyword, words, line))
+        return;
+      const double given = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
+      hold(keyword, set, components, {given * factor(keyword), line, reading.n_steps});
+    });
+  }
+
+private:
+  Reading                     &reading;
+  const mesh_file::DeckSets   &sets;
+  const unsigned int           dim;
+  const Amplitudes             amplitudes;
+  const LocalAxes              axes;
+  const std::set<unsigned int> references; ///< reference nodes of rigid bodies
+
+  double factor(const Keyword &keyword) const
+  {
+    return amplitudes.at_end(keyword, reading.n_steps);
+  }
+
+  /// Read a line of *BOUNDARY of reference nodes of rigid bodies. Return whether it is one.
+  bool is_motion(const Keyword &keyword, const Words &words, const unsigned long line)
+  {
+    if (references.empty())
+      return false;
+    bool has_motion = false;
+    for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
+      if (references.count(node) > 0)
+        {
+          has_motion = true;
+          // ENCASTRE and the like hold all components.
+          const bool   is_number = words[1].find_first_not_of("0123456789") == std::string::npos;
+          const auto   first     = is_number ? to_whole(words[1], line) : 1;
+          const auto   last      = !is_number ? 6
+                                   : words.size() > 2 && !words[2].empty() ? to_whole(words[2], line)
+                                                                           : first;
+          const double value =
+            words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
+          for (auto c = std::max(1ul, first); c <= std::min(6ul, last); ++c)
+            reading.current().motions[{node, c - 1}] = {value * factor(keyword), line,
+                                                        reading.n_steps};
+        }
+    return has_motion;
+  }
+
+  /// Return the components, from 0, of a line of *BOUNDARY that a model of solids has.
+  std::vector<unsigned int>
+  components_of(const Keyword &keyword, const Words &words, const unsigned long line)
+  {
+    static const std::map<std::string, std::vector<unsigned int>> names = {
+      {"ENCASTRE", {0, 1, 2}}, {"PINNED", {0, 1, 2}}, {"XSYMM", {0}},     {"YSYMM", {1}},
+      {"ZSYMM", {2}},          {"XASYMM", {1, 2}},    {"YASYMM", {0, 2}}, {"ZASYMM", {0, 1}}};
+    const auto                named = names.find(upper_case(words[1]));
+    std::vector<unsigned int> components;
+    if (named != names.end())
+      components = named->second;
+    else
+      {
+        const auto first = to_whole(words[1], line);
+        const auto last  = words.size() > 2 && !words[2].empty() ? to_whole(words[2], line) : first;
+        if (first < 1 || last < first || last > 6)
+          {
+            reading.lacks(keyword, " of components other than 1 to 6", line);
+            return {};
+          }
+        for (auto c = first; c <= last; ++c)
+          components.push_back(c - 1);
+      }
+    // Nodes of solids have no rotations (4 to 6), and nodes of a plane model no third component.
+    components.erase(std::remove_if(components.begin(), components.end(),
+                                    [&](const auto c) { return c >= dim; }),
+                     components.end());
+    return components;
+  }
+
+  /// Hold the whole faces of a set, and its nodes that are on none of them.
+  void hold(const Keyword                   &keyword,
+            const std::string               &set,
+            const std::vector<unsigned int> &components,
+            const DeckModel::Given          &given)
+  {
+    auto      &step           = reading.current();
+    auto       nodes          = reading.bodies.nodes_without_face(set);
+    const bool has_cell_nodes = !nodes.empty();
+    reading.bodies.use(set);
+    if (drop_inner(nodes, set))
+      reading.lacks(keyword, " of nodes inside of a body", given.line);
+    if (set.find_first_of(",:;=#\\+") != std::string::npos || reading.bodies.use(set))
+      {
+        if (!reading.use(keyword, set, given.line))
+          return;
+        const auto &of_set = reading.deck.mesh.optional_boundaries.at(set).nodes;
+        for (const unsigned int c : components)
+          if (const auto axis = axes.axis(of_set, c); axis && axis->first < dim)
+            step.prescribed.push_back(
+              {set, axis->first, axis->second * given.value, given.line, reading.n_steps});
+          else if (given.value == 0. && components.size() == dim)
+            step.prescribed.push_back({set, c, 0., given.line, reading.n_steps});
+          else if (given.value == 0. && is_normal(set, c))
+            step.prescribed.push_back({set, 3, 0., given.line, reading.n_steps});
+          else
+            reading.lacks(keyword,
+                          " along axes of *TRANSFORM that are neither coordinate axes nor "
+                          "normals of the faces",
+                          given.line);
+      }
+    for (const unsigned int node : nodes)
+      for (const unsigned int c : components)
+        if (const auto axis = axes.axis({node}, c); axis && axis->first < dim)
+          step.held_nodes[{node, axis->first}] = {axis->second * given.value, given.line,
+                                                  reading.n_steps};
+        else if (given.value == 0. && components.size() == dim)
+          step.held_nodes[{node, c}] = given;
+        else
+          reading.lacks(keyword, " of nodes along axes of *TRANSFORM that are no coordinate axes",
+                        given.line);
+    if (!nodes.empty())
+      reading.remarks.replaced("point supports for nodes of " + title_of(keyword) +
+                                 " that are not those of whole faces; stresses there depend on the "
+                                 "mesh",
+                               given.line);
+    else if (!reading.bodies.use(set) && !has_cell_nodes)
+      reading.remarks.not_needed(title_of(keyword) + " of nodes that belong to no cell",
+                                 given.line);
+  }
+
+  /// Erase the nodes that lie on no outer face. Return whether their supports are needed: if all
+  /// faces of a body are held equally, they hold its inside as well.
+  bool drop_inner(std::set<unsigned int> &nodes, const std::string &set) const
+  {
+    bool is_whole = true;
+    for (const unsigned int b : reading.bodies.bodies_of(set))
+      is_whole =
+        is_whole && reading.bodies.faces_on(b, set).size() == reading.bodies.all()[b].outer.size();
+    bool is_needed = false;
+    for (auto node = nodes.begin(); node != nodes.end();)
+      if (reading.bodies.body_at(*node))
+        ++node;
+      else
+        {
+          is_needed = is_needed || !is_whole || reading.bodies.bodies_of(set).empty();
+          node      = nodes.erase(node);
+        }
+    return is_needed;
+  }
+
+  bool is_normal(const std::string &set, const unsigned int component) const
+  {
+    const auto faces = reading.bodies.faces_of(set);
+    return std::all_of(faces.begin(), faces.end(),
+                       [&](const auto &corners) { return axes.is_normal(corners, component); });
+  }
+};
+} // namespace
+
+KeywordReadings support_readings(Reading &reading)
+{
+  const auto reader = std::make_shared<SupportReader>(reading);
+  return {{"BOUNDARY",
+           {[reader](const Keyword &keyword) { reader->read_boundary(keyword); },
+            {{"OP", "AMPLITUDE"}, {}}}}};
+}
+} // namespace snug::deck
