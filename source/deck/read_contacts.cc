@@ -192,7 +192,7 @@ private:
   mesh_file::FaceGaps gaps(const DeckModel::Contact &contact, const double reach) const
   {
     return mesh_file::face_gaps(reading.deck.mesh.points, faces(contact.slave_body, contact.slave),
-                     faces(contact.master_body, contact.master), reach);
+                                faces(contact.master_body, contact.master), reach);
   }
 
   /// Read a pair of a surface and a rigid one. Return whether it is one.
