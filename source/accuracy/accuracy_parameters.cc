@@ -1,5 +1,5 @@
 #include <snug/accuracy/accuracy_parameters.h>
-#include <snug/accuracy/adaptation.h>
+#include <snug/accuracy/targets.h>
 #include <snug/base/section_check.h>
 
 namespace snug::accuracy {

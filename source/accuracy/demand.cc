@@ -22,7 +22,7 @@ std::string text_of(const std::string &name, const Measured &measured)
 double Demand::tolerance(const Measured &measured, const double least) const
 {
   const double size = std::max(std::abs(measured.value), allowed(measured));
-  return size > 0. ? step_tolerance(measured.error / size, is_energy, least) : first_tolerance;
+  return size > 0. ? step_tolerance(measured.error / size, is_energy, least) : maximum_tolerance;
 }
 
 /// Return whether recent values change their sign and the last value is not near the one before it.

@@ -1,6 +1,6 @@
-#include <snug/accuracy/adaptation.h>
 #include <snug/accuracy/load_residual.h>
 #include <snug/accuracy/surface_residual.h>
+#include <snug/accuracy/targets.h>
 #include <snug/base/run_context.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/elasticity/cell_point.h>

@@ -1,4 +1,3 @@
-#include <snug/accuracy/adaptation.h>
 #include <snug/accuracy/surface_residual.h>
 #include <snug/base/run_context.h>
 #include <snug/contact/pair_geometry.h>

@@ -38,7 +38,7 @@ void Adaptation<dim>::start(const Design &design, const Refinement &refinement)
 template <int dim>
 double Adaptation<dim>::first_tolerance(const Refinement &refinement) const
 {
-  double result = accuracy::first_tolerance;
+  double result = accuracy::maximum_tolerance;
   if (!refinement.empty())
     for (const auto &target : scene.accuracy.targets)
       result = std::min(result, accuracy::step_tolerance(accuracy::read_target(target.second).value,
@@ -198,7 +198,7 @@ double Adaptation<dim>::minimum_tolerance() const
 template <int dim>
 double Adaptation<dim>::next_tolerance() const
 {
-  double tolerance = std::max(minimum_tolerance(), accuracy::first_tolerance);
+  double tolerance = std::max(minimum_tolerance(), accuracy::maximum_tolerance);
   for (unsigned int d = 0; d < demands.size(); ++d)
     tolerance = std::min(tolerance, demands[d].tolerance(solved->measured[d], minimum_tolerance()));
   return tolerance;

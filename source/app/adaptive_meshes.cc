@@ -1,4 +1,5 @@
 #include <snug/accuracy/surface_residual.h>
+#include <snug/accuracy/targets.h>
 #include <snug/app/adaptive_meshes.h>
 #include <snug/app/build_model.h>
 #include <snug/contact/joined_pairs.h>
@@ -141,7 +142,7 @@ void AdaptiveMeshes<dim>::add_cells(const mesh::BodyMesh<dim>         &mesh,
                                     const Refinement                  &of_mesh,
                                     const std::vector<dealii::CellId> &marked,
                                     Refinement                        &to,
-                                    const bool                         mesh_files_anew) const
+                                    const bool                         remesh_cad) const
 {
   const auto                                         &coarse = mesh.coarse_cells();
   std::map<unsigned int, std::vector<dealii::CellId>> of_files;
@@ -155,7 +156,7 @@ void AdaptiveMeshes<dim>::add_cells(const mesh::BodyMesh<dim>         &mesh,
     }
   for (const auto &[body, cells] : of_files)
     if (const auto n = of_mesh.n_halvings(body);
-        mesh_files_anew && n < the_scene.accuracy.maximum_levels)
+        remesh_cad && n < the_scene.accuracy.maximum_levels)
       to.halve(body, n, places_in_file<dim>(the_scene.bodies[body].mesh, coarse, cells));
 }
 

@@ -135,13 +135,13 @@ AdaptiveOptimization<dim>::adapt(const unsigned int n_searches)
 {
   const bool is_over =
     n_searches > 0 && result.evaluations >= scene.optimization.maximum_evaluations;
-  const bool is_tuned = n_searches >= phases.size();
-  const auto factor   = is_over || is_tuned ? 1. : phases[n_searches];
+  const bool phases_are_over = n_searches >= phases.size();
+  const auto factor          = is_over || phases_are_over ? 1. : phases[n_searches];
   context.out() << "adapting the mesh to the design of iteration " << result.iterations
                 << ", factor of the targets " << factor << ":" << std::endl;
-  adaptation.start(result.x, is_tuned ? refinement : Refinement());
+  adaptation.start(result.x, phases_are_over ? refinement : Refinement());
   auto failure_reason = adaptation.reach(factor);
-  bool agrees         = is_tuned && (adaptation.refinement() == refinement || agrees_with_search());
+  bool agrees = phases_are_over && (adaptation.refinement() == refinement || agrees_with_search());
   if (failure_reason.empty() && (is_over || agrees))
     failure_reason = adaptation.verify();
   add_meshes(factor == 1.);

@@ -1,4 +1,4 @@
-#include <snug/accuracy/adaptation.h>
+#include <snug/accuracy/targets.h>
 #include <snug/app/mesh_checks.h>
 #include <snug/app/model_report.h>
 #include <snug/app/offsets.h>

@@ -1,7 +1,7 @@
 #ifndef snug_accuracy_demand_h
 #define snug_accuracy_demand_h
 
-#include <snug/accuracy/adaptation.h>
+#include <snug/accuracy/targets.h>
 
 #include <string>
 #include <vector>

@@ -40,12 +40,12 @@ public:
 
   /// Add the cells @p marked of @p mesh, the one that was made last, with the refinement
   /// @p of_mesh. Elements of CAD files are halved at the centres of these cells if
-  /// @p mesh_files_anew.
+  /// @p remesh_cad.
   void add_cells(const mesh::BodyMesh<dim>         &mesh,
                  const Refinement                  &of_mesh,
                  const std::vector<dealii::CellId> &marked,
                  Refinement                        &to,
-                 bool                               mesh_files_anew = true) const;
+                 bool                               remesh_cad = true) const;
 
   /// Return @p of_mesh with all cells of @p mesh divided and all elements halved, as far as the
   /// maximum level allows. Collective.

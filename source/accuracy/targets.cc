@@ -1,4 +1,4 @@
-#include <snug/accuracy/adaptation.h>
+#include <snug/accuracy/targets.h>
 #include <snug/base/values.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ std::vector<bool> mark(const std::vector<double> &indicators,
 double step_tolerance(const double error, const bool is_energy, const double least)
 {
   const double tenth = 0.1 * error;
-  return std::max(least, std::min(first_tolerance, is_energy ? std::sqrt(tenth) : tenth));
+  return std::max(least, std::min(maximum_tolerance, is_energy ? std::sqrt(tenth) : tenth));
 }
 
 bool is_unbounded(const std::vector<double> &errors)

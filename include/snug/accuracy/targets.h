@@ -1,11 +1,11 @@
-#ifndef snug_accuracy_adaptation_h
-#define snug_accuracy_adaptation_h
+#ifndef snug_accuracy_targets_h
+#define snug_accuracy_targets_h
 
 #include <string>
 #include <vector>
 
 namespace snug::accuracy {
-/// Maximum error of a response.
+/// This struct holds the maximum error of a response.
 struct Target
 {
   double value    = 0.;
@@ -42,13 +42,15 @@ struct Marking
 std::vector<bool>
 mark(const std::vector<double> &indicators, double error, double allowed, const Marking &marking);
 
-/// Tolerance of the solver on the first mesh, and its maximum on later meshes.
-constexpr double first_tolerance = 1e-2;
+/// Maximum tolerance of the solver on meshes for targets, unless the minimum is larger. A first
+/// mesh without cells refined for the targets is solved to this tolerance.
+constexpr double maximum_tolerance = 1e-2;
 
 /**
  * Return the tolerance at which the next mesh is solved: a tenth of the relative @p error of the
  * response on the current mesh. For energies it is the root of this value, because energies depend
- * on the square of the error of the state. The tolerance lies between @p least and first_tolerance.
+ * on the square of the error of the state. The tolerance is at least @p least and otherwise at most
+ * maximum_tolerance.
  */
 double step_tolerance(double error, bool is_energy, double least);
 
