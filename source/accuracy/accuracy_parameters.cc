@@ -16,10 +16,10 @@ void AccuracyParameters::declare(Entries &entries)
                    {"tip: 0.02",
                     "absolute error in the units of the response, at least 1e-8 % of its "
                     "value"}}),
-    "The maximum estimated errors of responses in all load cases, to which the mesh is refined. "
-    "Names are those of 'Responses' or quantities. An optimization needs a target for its "
-    "objective "
-    "and uses meshes for 8, 3 and 1 times the targets. An empty list means the mesh as given.");
+    "The maximum estimated errors of 'Responses' or quantities in all load cases. An empty list "
+    "means the mesh as given. An optimization needs a target for its objective. It uses first "
+    "meshes for 8, 3 and 1 times the targets, then further ones until mesh and design agree (at "
+    "most 8 searches).");
   entries.add("Maximum levels", maximum_levels, between(1., 20.),
               "The maximum refinement level of a cell above the coarse cells, including "
               "'Refinements'. Of a body of a CAD file, the maximum number of meshes with smaller "
@@ -36,10 +36,13 @@ void AccuracyParameters::declare(Entries &entries)
   entries.add(
     "Verify", verify,
     with_meanings(allowed("auto, true or false"),
-                  {{"auto", "true if the finer mesh has at most 10,000 unknowns"}}),
+                  {{"auto", "true if the finer mesh has at most 10,000 unknowns, or no more than "
+                            "one of the meshes before. If the analysis on it fails, the estimates "
+                            "decide"},
+                   {"true", "an analysis that fails on the finer mesh is an error"}}),
     "Whether to check the targets on the mesh with all cells refined once, and the elements of "
-    "CAD files halved. If a target is "
-    "missed, that mesh is refined further.");
+    "CAD files halved. If a target is missed, that mesh is refined further. An optimization "
+    "always verifies its last mesh.");
 }
 
 void AccuracyParameters::check(const SectionCheck &section) const
