@@ -17,12 +17,13 @@ using optimization::OptimizationResult;
 /// meshes with errors of the targets.
 constexpr std::array<double, 3> phases{{8., 3., 1.}};
 
-/// Maximum number of searches. Meshes made for the designs found that do not agree by then will not
-/// agree.
+/// Maximum number of searches. If the mesh of a search and the mesh made for the design that it
+/// found still differ after so many searches, further searches are not expected to change this.
 constexpr unsigned int most_searches = 8;
 
-/// Maximum number of designs for which no mesh meets the targets. A search on the mesh that failed
-/// leaves such a design where other designs are better.
+/// Maximum number of designs for which no mesh meets the targets. After fewer such designs the next
+/// search runs on the mesh that misses the targets, because it may find a design whose mesh meets
+/// them.
 constexpr unsigned int most_failures = 3;
 
 /// Part of the error of the objective below which changes of the objective end a search.
@@ -64,12 +65,13 @@ public:
   std::string run();
 
 private:
-  /// This struct describes how a design is continued from on the mesh that was made for the design.
+  /// This struct describes the search on a mesh that was made for the last design. On the last mesh
+  /// there is no search, and the design is reported.
   struct Phase
   {
-    double       tolerance; ///< of a search, relative to the objective
-    PriorResults prior;
-    std::string  failure_reason; ///< empty: the targets are met
+    double       tolerance;      ///< of the search, relative to the objective
+    PriorResults prior;          ///< for the report of the design
+    std::string  failure_reason; ///< why the targets are not met; empty: they are met
     bool         is_last;
   };
 
@@ -91,7 +93,9 @@ private:
   void  add_meshes(bool at_targets);
 };
 
-/// Analyse the first design on a mesh that meets the targets.
+/// Analyse the first design on a mesh that meets the targets, because the gain is the difference
+/// between the first and the last objective, both with errors below the target. The first search
+/// runs on a coarser mesh for the same design, see adapt().
 template <int dim>
 void AdaptiveOptimization<dim>::analyse_first_design()
 {
@@ -115,7 +119,8 @@ void AdaptiveOptimization<dim>::analyse_first_design()
 }
 
 /// Return whether the mesh of the last search, with cells added only to match contact faces, meets
-/// the targets at once and changes the objective by less than its error. Collective.
+/// the targets at once and changes the objective by less than the estimated error of the objective.
+/// Collective.
 template <int dim>
 bool AdaptiveOptimization<dim>::agrees_with_search() const
 {

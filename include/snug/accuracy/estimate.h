@@ -4,6 +4,8 @@
 #include <snug/response/response.h>
 #include <snug/sensitivity/gradient_parameters.h>
 
+#include <optional>
+
 namespace snug::accuracy {
 /// Estimated distance of a displacement u_h on a mesh from the exact displacement u.
 struct EnergyEstimate
@@ -22,11 +24,12 @@ struct EnergyEstimate
  *     - B(u_h, z) - \tfrac s2 B(u_h, u_h)
  *     + \int q_\eta\,(g - n\cdot[u_h])\,dA
  *     + \lambda\cdot c(z + s u_h) - \int p_h\,n\cdot[z + s u_h]\,dA + J(p_h) - J_h. @f]
- * e_u and e_z are the local errors of the state and of z, its adjoint minus s u_h and minus the
- * motion of FieldDerivative. B is that of SurfaceLayer, q_eta are the contact forces of the adjoint
- * per area, c are the contact rows, and s is the stiffness of FieldDerivative. The last difference
- * is that between J of the pressures between nodes and J of the pressures that J reads. At degree 2
- * its absolute value enters, and the two terms before it are left out.
+ * e_u and e_z are the local errors of the state and of
+ *   z = (adjoint of J) - s u_h - (motion),
+ * with s and motion of response::FieldDerivative. B is that of SurfaceLayer, q_eta are the contact
+ * forces of the adjoint per area, and c are the contact rows. The last difference is that between J
+ * of the pressures between nodes and J of the pressures that J reads. At degree 2 its absolute
+ * value enters, and the two terms before it are left out.
  */
 struct ResponseEstimate
 {
@@ -66,8 +69,8 @@ struct Estimates
  * adjoints of all responses that need a solve. The solver leaves jumps between subdomains. If they
  * make more than a tenth of an estimated error, as near Poisson's ratio one half, the estimate
  * would measure the error of the solver. In this case the state and the adjoints are solved again
- * to smaller tolerances, as far as the solver can.
- * @param[out] solved_on the state that is estimated, if it is not @p state. Collective.
+ * to smaller tolerances, as far as the solver can. Collective.
+ * @param[out] solved_on the state that is estimated, if it is not @p state.
  * @throws SolveError if the adjoints cannot be solved at all.
  */
 template <int dim>

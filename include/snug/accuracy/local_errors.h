@@ -11,19 +11,26 @@
 #include <vector>
 
 namespace snug::accuracy {
-/// Local errors e_i of displacements in a cell, see elasticity::LocalError.
+/// This struct holds products and norms of the local errors e_i of displacements in a cell, see
+/// elasticity::LocalError. Both have the correction factor of quadratic elements, and products also
+/// that of mixed elements of degree 2.
 struct CellErrors
 {
-  std::vector<double> products; ///< a(e_i, e_j), row by row; for B-bar with pressure errors
-  std::vector<double> norms;    ///< norms of the stress errors; a(e_i, e_i)^(1/2) except for B-bar
+  /// a(e_i, e_j), row by row; for B-bar a_+(e_i, e_j) - kappa (d_i, d_j), which contains the errors
+  /// of the pressures
+  std::vector<double> products;
+  /// norms of the errors of the stress: a(e_i, e_i)^(1/2); for B-bar
+  /// (a_+(e_i, e_i) + kappa (d_i, 2 div e_i + d_i))^(1/2)
+  std::vector<double> norms;
 };
 
 /**
- * The local problems of LocalError in all cells of this rank, with tractions
+ * This class solves the local problems of LocalError in all cells of this rank, with tractions
  *   t = (sigma_h + sigma_h') n / 2   between cells, with sigma_h' of the neighbor,
  *   t = traction of the loads        on the boundary,
- *   t = -p n                         on both sides of contact (ContactPressure),
- *   t = -k (q . u) q                 of springs,
+ *   t = -p n                         on both sides of contact (ContactPressure), plus friction,
+ *   t = -k (q . u) q                 of springs with the stiffness k per area along the unit
+ *                                    vector q,
  * and with held directions at supports.
  */
 template <int dim>

@@ -17,17 +17,22 @@ struct AdaptedProblem
   typename ShapeProblem<dim>::States                    states    = {};
   std::vector<std::unique_ptr<response::Response<dim>>> responses = {}; ///< of the targets
   std::vector<MeshError>          errors   = {}; ///< per load case; empty: not known
-  std::vector<accuracy::Measured> measured = {}; ///< of the demands
+  std::vector<accuracy::Measured> measured = {}; ///< per Demand
 };
 
 /**
  * This class refines meshes adaptively for a design. Each mesh is refined from the mesh before
  * where its errors are large, until the targets are met: bodies of CAD files are meshed anew, and
- * the cells of other bodies are divided. The analysis on a mesh starts from the contact forces on
- * the mesh before, to a solver tolerance that follows the discretization error. Contact faces that
- * lie opposite to each other are kept at one size. The states on which the marked cells depend
- * change within the solver tolerance when the subdomains change. The subdomains therefore do not
- * depend on the number of ranks, and neither do the meshes.
+ * the cells of other bodies are divided. A target in one load case is a Demand
+ * (accuracy/demand.h). The analysis on a mesh starts from the contact forces on the mesh before, to
+ * a solver tolerance that follows the discretization error. Contact faces that lie opposite to each
+ * other are kept at one size. Marked cells depend on states, and states depend within the solver
+ * tolerance on the subdomains. Subdomains, and so meshes, are therefore the same on any number of
+ * ranks up to the number of subdomains of `Subdomains = auto`.
+ *
+ * Members that choose cells are defined in adaptation_marking.cc, those that compare with a finer
+ * mesh in adaptation_verification.cc, those that report results and failures in
+ * adaptation_report.cc, and all others in adaptation.cc.
  */
 template <int dim>
 class Adaptation
@@ -43,8 +48,8 @@ public:
   {}
 
   /// Make the first mesh for @p design, or for the initial design if @p design is empty, and solve
-  /// there. The first mesh is the mesh of the scene with @p refinement. Earlier meshes and the
-  /// summary are discarded. Collective. @throws InputError, SolveError.
+  /// there. The first mesh is the mesh of the scene with @p refinement. Earlier problems and
+  /// the summary are discarded; the forest is kept. Collective. @throws InputError, SolveError.
   void start(const Design &design = {}, const Refinement &refinement = {});
 
   /// Refine until errors are at most @p factor times the targets. Return why they are not; empty:
@@ -56,10 +61,12 @@ public:
   /// @throws SolveError.
   std::string reach_and_verify();
 
-  /// Compare with the mesh on which all cells are refined. Return why the targets are not met
-  /// there; empty: they are. Collective. @throws SolveError.
+  /// Compare with the mesh on which all cells are refined, whatever `Verify` says. Return why the
+  /// targets are not met there; empty: they are, or the analysis on that mesh failed and `Verify`
+  /// is not true. Collective. @throws SolveError.
   std::string verify();
-  /// Return the refinement of the mesh on which verify() missed the targets; empty if it did not.
+  /// Return the refinement of the mesh on which verify() last missed the targets since start();
+  /// empty if it never did.
   const Refinement &finer_refinement() const { return finer; }
 
   /// Return the problem of the mesh on which the targets are met, or else of the last mesh.

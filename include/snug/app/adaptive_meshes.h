@@ -13,7 +13,7 @@ namespace snug::app {
 /**
  * This class makes the meshes of a scene with refinements. Each mesh is made from the forest of the
  * mesh before where that is possible. Contact faces that lie opposite to each other are kept at one
- * size. All members are collective where they make meshes.
+ * size. first(), make() and everywhere() are collective.
  */
 template <int dim>
 class AdaptiveMeshes
@@ -29,18 +29,17 @@ public:
   /// Return the scene with the meshes of CAD files that were made last.
   const scene::Scene &scene() const { return the_scene; }
 
-  /// Return the mesh of the scene with @p refinement, to which the refinement is added that the
-  /// loads, the surfaces and the contact of the scene need. Warn of what remains unresolved.
-  /// @throws InputError.
+  /// Return the mesh of the scene with @p refinement. First add to @p refinement the cells that
+  /// loads, surfaces and opposite contact faces need. Warn of loads and surfaces that remain
+  /// unresolved. @throws InputError.
   Mesh first(Refinement &refinement);
 
-  /// Return the mesh of the scene with @p refinement, to which cells are added that are coarser
-  /// than the cells of the opposite side of a contact. @throws InputError.
+  /// Return the mesh of the scene with @p refinement. First divide, by adding them to
+  /// @p refinement, cells whose contact face is larger than the one opposite. @throws InputError.
   Mesh make(Refinement &refinement);
 
-  /// Add the cells @p marked of @p mesh, the one that was made last, with the refinement
-  /// @p of_mesh. Elements of CAD files are halved at the centres of these cells if
-  /// @p remesh_cad.
+  /// Add cells @p marked of @p mesh to @p to. @p mesh must be the last one made, @p of_mesh its
+  /// refinement. Elements of CAD files are halved at the centres of these cells if @p remesh_cad.
   void add_cells(const mesh::BodyMesh<dim>         &mesh,
                  const Refinement                  &of_mesh,
                  const std::vector<dealii::CellId> &marked,

@@ -21,8 +21,8 @@ public:
   void divide(unsigned int body, const dealii::CellId &cell);
 
   /// Halve the element size of the CAD file of a body at places, or everywhere if there are none.
-  /// The places of several calls with the same number @p after are halved once, after so many
-  /// halvings before.
+  /// @p after is the number of halvings before this one. Calls with equal @p after are one halving;
+  /// their places are united.
   void halve(unsigned int body, unsigned int after, const std::vector<dealii::Point<3>> &places);
 
   /// Return how often the elements of the body are halved.
