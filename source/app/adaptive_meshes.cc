@@ -69,7 +69,7 @@ typename AdaptiveMeshes<dim>::Mesh AdaptiveMeshes<dim>::first(Refinement &refine
 template <int dim>
 const mesh::Forest<dim> &AdaptiveMeshes<dim>::forest_with(const Refinement &refinement)
 {
-  if (refinement.remesh(the_scene, context.communicator()))
+  if (refinement.remesh(the_scene, context))
     forest.reset();
   if (!forest)
     {

@@ -23,7 +23,7 @@ unsigned int Refinement::n_halvings(const unsigned int body) const
   return found == halved.end() ? 0 : found->second.size();
 }
 
-bool Refinement::remesh(scene::Scene &scene, const MPI_Comm communicator) const
+bool Refinement::remesh(scene::Scene &scene, RunContext &context) const
 {
   bool any = false;
   for (unsigned int b = 0; b < scene.bodies.size(); ++b)
@@ -36,8 +36,8 @@ bool Refinement::remesh(scene::Scene &scene, const MPI_Comm communicator) const
       auto parameters   = mesh;
       parameters.halved = wanted;
       parameters.imported =
-        cad::import_cad(parameters, scene.dimension, scene.output_directory + "/cad",
-                        scene.bodies[b].name, communicator);
+        cad::import_cad(parameters, scene.dimension,
+                        scene.output_directory + "/cad/" + scene.bodies[b].name, context);
       mesh = std::move(parameters);
       any  = true;
     }

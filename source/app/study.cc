@@ -315,7 +315,7 @@ int run(const Options &options)
     options.sets,
     options.output,
     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
-    MPI_COMM_WORLD};
+    &context};
   const auto translation = translate_deck(source, options.translate);
   if (options.translate)
     {
@@ -323,7 +323,6 @@ int run(const Options &options)
       return 0;
     }
   const scene::Scene scene = scene::read_scene(source);
-  context.set_verbosity(scene.output.verbosity);
   report_translation(context, options, translation);
   feti::check_factor_options(scene.feti.factorization);
   if (options.estimate)

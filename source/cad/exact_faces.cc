@@ -1,13 +1,12 @@
 #include <snug/cad/faces.h>
+#include <snug/cad/surface_projection.h>
 
 #include <Adaptor3d_Curve.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <ShapeAnalysis_Curve.hxx>
-#include <ShapeAnalysis_Surface.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -21,6 +20,7 @@
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
 
+#include <algorithm>
 #include <cmath>
 
 namespace snug::cad {
@@ -40,46 +40,68 @@ gp_Pnt to_occ(const dealii::Point<dim> &x, const double z)
   return {x[0], x[1], dim == 3 ? x[dim - 1] : z};
 }
 
-/// This class projects points on the curve of an edge, beyond its ends as well.
+/// This class projects points on the curve of an edge, beyond its ends as well. See
+/// SurfaceProjection for the method.
 template <int dim>
 class OnCurve : public geometry::Projection<dim>
 {
 public:
   explicit OnCurve(const TopoDS_Edge &edge)
   {
-    double first, last;
-    curve = BRep_Tool::Curve(edge, first, last);
-    z     = curve->Value(first).Z();
+    curve                = BRep_Tool::Curve(edge, first, last);
+    const unsigned int n = 100;
+    for (unsigned int i = 0; i <= n; ++i)
+      {
+        const double t = first + (last - first) * i / n;
+        samples.emplace_back(t, curve->Value(t).XYZ());
+      }
+    z     = samples[0].second.Z();
+    first = curve->IsPeriodic() ? -HUGE_VAL : curve->FirstParameter();
+    last  = curve->IsPeriodic() ? HUGE_VAL : curve->LastParameter();
   }
 
   dealii::Point<dim> project(const dealii::Point<dim> &x) const override
   {
+    const gp_Pnt point = to_occ(x, z);
+    if (const auto t = near(point.XYZ()))
+      return point_of<dim>(curve->Value(*t));
     gp_Pnt on;
     double parameter;
-    ShapeAnalysis_Curve().Project(curve, to_occ(x, z), 1e-12, on, parameter, false);
+    ShapeAnalysis_Curve().Project(curve, point, 1e-12, on, parameter, false);
     return point_of<dim>(on);
   }
 
 private:
   Handle(Geom_Curve) curve;
-  double z; ///< of the plane in 2D
-};
+  double                                 first, last; ///< bounds of the parameter of the curve
+  double                                 z;           ///< of the plane in 2D
+  std::vector<std::pair<double, gp_XYZ>> samples;     ///< t and C(t)
 
-/// This class projects points on the surface of a face, beyond its edges as well.
-class OnSurface : public geometry::Projection<3>
-{
-public:
-  explicit OnSurface(const TopoDS_Face &face)
-    : surface(new ShapeAnalysis_Surface(BRep_Tool::Surface(face)))
-  {}
-
-  dealii::Point<3> project(const dealii::Point<3> &x) const override
+  /// Return the parameter of the projection by Newton's method, or nothing if it fails.
+  std::optional<double> near(const gp_XYZ &x) const
   {
-    return point_of<3>(surface->Value(surface->ValueOfUV(to_occ(x, 0.), 1e-12)));
+    const auto start = std::min_element(samples.begin(), samples.end(), [&](auto &a, auto &b) {
+      return (a.second - x).SquareModulus() < (b.second - x).SquareModulus();
+    });
+    double     t = start->first, change = HUGE_VAL;
+    for (unsigned int turn = 0; turn < 20 && change > 1e-9; ++turn)
+      {
+        gp_Pnt on;
+        gp_Vec along, bend;
+        curve->D2(t, on, along, bend);
+        const gp_Vec off   = on.XYZ() - x;
+        const double slope = off * along, rise = along * along + off * bend;
+        if (!(rise > 0.1 * (along * along)))
+          return {};
+        const double next = std::clamp(t - slope / rise, first, last);
+        change            = std::abs(next - t) / (samples.back().first - samples.front().first);
+        t                 = next;
+      }
+    const double before    = (start->second - x).Modulus();
+    const bool   is_closer = (curve->Value(t).XYZ() - x).Modulus() <=
+                           before + 1e-9 * (start->second - samples[0].second).Modulus();
+    return change <= 1e-9 && is_closer ? std::optional<double>(t) : std::nullopt;
   }
-
-private:
-  Handle(ShapeAnalysis_Surface) surface;
 };
 
 template <int dim>
@@ -179,7 +201,8 @@ Face<3> exact_face(const TopoDS_Face &face)
   const BRepAdaptor_Surface adaptor(face);
   if (adaptor.GetType() == GeomAbs_Plane)
     return {clean_normal<3>(point_of<3>(adaptor.Plane().Axis().Direction())), {}};
-  return {{}, known_surface(adaptor), std::make_shared<OnSurface>(face)};
+  const auto known = known_surface(adaptor);
+  return {{}, known, known ? nullptr : std::make_shared<SurfaceProjection>(face)};
 }
 
 Face<2> exact_face(const TopoDS_Edge &edge)

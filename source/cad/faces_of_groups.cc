@@ -63,7 +63,7 @@ std::map<std::string, unsigned int> faces_of_groups(const Part                &p
     if (mesh_file::dimension(element.shape) == part.dim - 1 && !element.groups.empty())
       elements[element.groups.back()].push_back(&element);
   const auto                          faces     = part.faces();
-  const double                        tolerance = 0.05 * part.size();
+  const double                        tolerance = 0.05 * part.size;
   const unsigned int                  n_points  = 5; // a sample, because the group is one CAD face
   std::map<std::string, unsigned int> result;
   for (const auto &[group, own] : elements)

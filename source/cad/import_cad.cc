@@ -26,15 +26,30 @@ namespace {
 struct MeshedPart
 {
   std::string                         brep, mesh;
-  std::vector<std::string>            names;    ///< of the faces
-  std::map<std::string, unsigned int> of_group; ///< group of the mesh -> face
+  std::vector<std::string>            boundaries; ///< of the faces
+  std::vector<std::string>            table;      ///< of the faces, see table_of()
+  std::map<std::string, unsigned int> of_group;   ///< group of the mesh -> face
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int /*version*/)
   {
-    archive & brep & mesh & names & of_group;
+    archive & brep & mesh & boundaries & table & of_group;
   }
 };
+
+/// Run a step of the import. Its time is printed if it takes more than a second.
+template <typename Work>
+auto timed(RunContext &context, const std::string &file, const std::string &step, const Work &work)
+{
+  const std::string text = std::filesystem::path(file).filename().string() + ", " + step;
+  context.progress(text + " ...");
+  const double start   = context.seconds();
+  const auto   result  = work();
+  const double seconds = context.seconds() - start;
+  if (seconds > 1.)
+    context.out() << text << ": " << to_text(std::round(10. * seconds) / 10.) << " s" << std::endl;
+  return result;
+}
 
 /// Run @p work with errors of OpenCASCADE, which are no std::exception, as errors of the file.
 template <typename Work>
@@ -97,58 +112,73 @@ std::string named(const std::string                         &mesh,
   return mesh.substr(0, place) + names.str() + mesh.substr(place);
 }
 
-/// Mesh the part on this rank.
+/// Mesh the part on this rank. @p stem is the path of the files of Gmsh without their endings.
 MeshedPart meshed(const geometry::BodyMeshParameters &parameters,
                   const unsigned int                  dim,
-                  const std::string                  &stem)
+                  const std::string                  &stem,
+                  RunContext                         &context)
 {
-  const Part part       = read_part(parameters.file, parameters.solid, dim);
-  const auto boundaries = boundaries_of(describe_faces(part), parameters.cad_faces);
-  check_sizes(parameters, boundaries, part.size());
-  ElementSizes sizes{size_sources(part, boundaries, parameters.face_sizes, parameters.element_size),
-                     parameters.element_size, parameters.size_growth};
-  for (const auto &places : parameters.halved)
-    sizes.halve(places);
-  const SizeField field(part, std::move(sizes));
+  const auto run = [&](const std::string &step, const auto &work) {
+    return timed(context, parameters.file, step, work);
+  };
+  const Part part =
+    run("reading", [&]() { return read_part(parameters.file, parameters.solid, dim); });
+  const auto faces = run("list of faces", [&]() { return describe_faces(part); });
+  MeshedPart result;
+  result.boundaries = boundaries_of(faces, parameters.cad_faces);
+  result.table      = table_of(faces, result.boundaries, dim);
+  result.brep       = to_brep(part.shape);
+  check_sizes(parameters, result.boundaries, part.size);
+  const auto      field = run("element sizes", [&]() {
+    ElementSizes sizes{size_sources(part, result.boundaries, parameters.face_sizes,
+                                         parameters.element_size),
+                       parameters.element_size, parameters.size_growth};
+    for (const auto &places : parameters.halved)
+      sizes.halve(places);
+    return SizeField(part, std::move(sizes)).text();
+  });
   std::error_code unused; // writing fails if there is no directory
   std::filesystem::create_directories(std::filesystem::path(stem).parent_path(), unused);
-  MeshedPart result;
-  result.brep  = to_brep(part.shape);
-  result.names = part.names;
   try
     {
-      run_gmsh(stem, result.brep, field.text(), dim);
-      result.mesh     = contents(stem + ".msh");
-      result.of_group = faces_of_groups(part, mesh_file::read_mesh_file(result.mesh));
+      result.mesh     = run("mesh by gmsh", [&]() {
+        run_gmsh(stem, result.brep, field, dim);
+        return contents(stem + ".msh");
+      });
+      result.of_group = run("faces of the mesh", [&]() {
+        return faces_of_groups(part, mesh_file::read_mesh_file(result.mesh));
+      });
     }
   catch (const InputError &error)
     {
       throw bad_entry("File", parameters.file, error.what());
     }
   std::ofstream(stem + ".msh", std::ios::binary)
-    << named(result.mesh, result.of_group, boundaries, dim);
+    << named(result.mesh, result.of_group, result.boundaries, dim);
   return result;
 }
 
 /// Return the blocks of the mesh, with the true surfaces of the faces.
 template <int dim>
-std::shared_ptr<geometry::ImportedMesh>
-blocks_of(const MeshedPart &meshed, const Part &part, geometry::BodyMeshParameters parameters)
+std::shared_ptr<geometry::ImportedMesh> blocks_of(const MeshedPart            &meshed,
+                                                  geometry::BodyMeshParameters parameters)
 {
   auto file = mesh_file::read_mesh_file(meshed.mesh);
   for (auto &element : file.elements)
     if (mesh_file::dimension(element.shape) == dim)
       element.groups.clear(); // the only region
-  const auto faces      = describe_faces(part);
-  const auto boundaries = boundaries_of(faces, parameters.cad_faces);
   parameters.boundary_numbers.clear();
   for (const auto &[group, face] : meshed.of_group)
-    parameters.boundary_numbers[group] = boundaries[face];
+    parameters.boundary_numbers[group] = meshed.boundaries[face];
+  // All ranks read the same text, so that their shapes agree to the last digit.
+  Part part;
+  part.shape          = from_brep(meshed.brep);
+  part.dim            = dim;
   auto exact          = exact_faces<dim>(part);
   exact.face_of_group = meshed.of_group;
   auto result         = mesh_file::import_mesh<dim>(file, parameters, &exact);
   result->text_hash   = mesh_file::text_hash(meshed.mesh);
-  result->faces       = table_of(faces, boundaries, dim);
+  result->faces       = meshed.table;
   return result;
 }
 } // namespace
@@ -156,22 +186,19 @@ blocks_of(const MeshedPart &meshed, const Part &part, geometry::BodyMeshParamete
 std::shared_ptr<const geometry::ImportedMesh>
 import_cad(const geometry::BodyMeshParameters &parameters,
            const unsigned int                  dim,
-           const std::string                  &directory,
-           const std::string                  &name,
-           const MPI_Comm                      communicator)
+           const std::string                  &stem,
+           RunContext                         &context)
 {
   MeshedPart result;
-  throw_collectively(communicator, [&]() {
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      result =
-        guarded(parameters, [&]() { return meshed(parameters, dim, directory + "/" + name); });
+  throw_collectively(context.communicator(), [&]() {
+    if (context.rank() == 0)
+      result = guarded(parameters, [&]() { return meshed(parameters, dim, stem, context); });
   });
-  result = dealii::Utilities::MPI::broadcast(communicator, result, 0);
-  // All ranks read the same text, so that their shapes agree to the last digit.
+  result = dealii::Utilities::MPI::broadcast(context.communicator(), result, 0);
   return guarded(parameters, [&]() {
-    const Part part{from_brep(result.brep), dim, result.names};
-    return dim == 2 ? blocks_of<2>(result, part, parameters)
-                    : blocks_of<3>(result, part, parameters);
+    return timed(context, parameters.file, "curved cells", [&]() {
+      return dim == 2 ? blocks_of<2>(result, parameters) : blocks_of<3>(result, parameters);
+    });
   });
 }
 } // namespace snug::cad

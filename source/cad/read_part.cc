@@ -221,6 +221,7 @@ Part part_of(FileShape          file,
         }
       part.shape = chosen(solids, solid, path, "solid");
     }
+  part.size = std::sqrt(box_of(part.shape).SquareExtent());
   // Faces that continue each other without an edge are marked, see describe_faces().
   BRepLib::EncodeRegularity(part.shape, M_PI / 360.);
   for (const auto &face : part.faces())
@@ -239,11 +240,6 @@ std::vector<TopoDS_Shape> Part::faces() const
   for (int f = 1; f <= map.Extent(); ++f)
     result.push_back(map(f));
   return result;
-}
-
-double Part::size() const
-{
-  return std::sqrt(box_of(shape).SquareExtent());
 }
 
 Part read_part(const std::string &path, const unsigned int solid, const unsigned int dim)

@@ -67,7 +67,7 @@ SizeField::SizeField(const Part &part, ElementSizes the_sizes)
   Bnd_Box box;
   BRepBndLib::Add(part.shape, box);
   // Gmsh may ask for sizes at points that are outside by rounding.
-  box.Enlarge(0.01 * part.size());
+  box.Enlarge(0.01 * part.size);
   Point lower, upper;
   box.Get(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
   GProp_GProps properties;

@@ -1,10 +1,10 @@
+#include <snug/cad/face_samples.h>
 #include <snug/cad/size_field.h>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepLProp_CLProps.hxx>
 #include <BRepLProp_SLProps.hxx>
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -12,6 +12,7 @@
 #include <TopoDS_Face.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace snug::cad {
@@ -39,24 +40,43 @@ void add_edge(const TopoDS_Edge &edge, const double spacing, Points &points)
     }
 }
 
+/// Return the numbers of intervals of u and v whose lengths are at most @p spacing.
+std::array<unsigned int, 2> intervals(const BRepAdaptor_Surface &surface, const double spacing)
+{
+  const double                u = surface.FirstUParameter(), du = surface.LastUParameter() - u;
+  const double                v = surface.FirstVParameter(), dv = surface.LastVParameter() - v;
+  std::array<unsigned int, 2> result = {
+    {steps(du, surface.UResolution(spacing)), steps(dv, surface.VResolution(spacing))}};
+  if (surface.GetType() != GeomAbs_BSplineSurface && surface.GetType() != GeomAbs_BezierSurface)
+    return result;
+  const unsigned int n       = 8;
+  double             speed_u = 0., speed_v = 0.; // maxima of |S_u| and |S_v|
+  for (unsigned int i = 0; i <= n; ++i)
+    for (unsigned int j = 0; j <= n; ++j)
+      {
+        gp_Pnt on;
+        gp_Vec along_u, along_v;
+        surface.D1(u + du * i / n, v + dv * j / n, on, along_u, along_v);
+        speed_u = std::max(speed_u, along_u.Magnitude());
+        speed_v = std::max(speed_v, along_v.Magnitude());
+      }
+  // OpenCASCADE's bounds of the derivatives of a B-spline may be far too large, and the maxima of
+  // samples slightly too small.
+  result[0] = std::min(result[0], steps(1.1 * du * speed_u, spacing));
+  result[1] = std::min(result[1], steps(1.1 * dv * speed_v, spacing));
+  return result;
+}
+
 /// Add points of a regular grid of parameters inside of a face, and points of its edges.
 void add_face(const TopoDS_Face &face, const double spacing, Points &points)
 {
   const BRepAdaptor_Surface surface(face);
-  BRepTopAdaptor_FClass2d   inside(face, 1e-9);
-  const double              u = surface.FirstUParameter(), du = surface.LastUParameter() - u;
-  const double              v = surface.FirstVParameter(), dv = surface.LastVParameter() - v;
-  const unsigned int        n = steps(du, surface.UResolution(spacing)),
-                     m        = steps(dv, surface.VResolution(spacing));
-  for (unsigned int i = 0; i <= n; ++i)
-    for (unsigned int j = 0; j <= m; ++j)
-      {
-        const gp_Pnt2d at(u + du * i / n, v + dv * j / m);
-        if (inside.Perform(at) == TopAbs_OUT)
-          continue;
-        const gp_Pnt x = surface.Value(at.X(), at.Y());
-        points.emplace_back(x.X(), x.Y(), x.Z());
-      }
+  const auto                n = intervals(surface, spacing);
+  for (const auto &at : samples_inside(face, n[0], n[1]))
+    {
+      const gp_Pnt x = surface.Value(at.X(), at.Y());
+      points.emplace_back(x.X(), x.Y(), x.Z());
+    }
   for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next())
     add_edge(TopoDS::Edge(edges.Current()), spacing, points);
 }

@@ -183,8 +183,9 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
         mesh.named_regions.push_back(region);
       const SectionCheck section(body.section(), origins, scene.dimension);
       const bool         is_cad = mesh.source == geometry::Source::cad;
-      section.require(!mesh.file.empty() && source.read_file, "File", mesh.file,
-                      is_cad ? "must be a CAD file" : "must be a mesh file");
+      section.require(!mesh.file.empty() &&
+                        (is_cad ? source.context != nullptr : bool(source.read_file)),
+                      "File", mesh.file, is_cad ? "must be a CAD file" : "must be a mesh file");
       try
         {
           namespace fs = std::filesystem;
@@ -192,8 +193,8 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
                         .lexically_normal()
                         .string();
           mesh.imported =
-            is_cad ? cad::import_cad(mesh, scene.dimension, scene.output_directory + "/cad",
-                                     body.name, source.communicator)
+            is_cad ? cad::import_cad(mesh, scene.dimension,
+                                     scene.output_directory + "/cad/" + body.name, *source.context)
                    : mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
         }
       catch (const InputError &error)
@@ -260,6 +261,8 @@ Scene read_scene(const SceneSource &source)
   check_names(scene, origins);
   assign(statements, scene);
   complete(scene);
+  if (source.context != nullptr)
+    source.context->set_verbosity(scene.output.verbosity);
   read_meshes(source, origins, scene);
   if (scene.degree == 0)
     scene.degree = std::any_of(scene.bodies.begin(), scene.bodies.end(), has_triangles) ? 2 : 1;

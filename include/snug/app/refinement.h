@@ -37,7 +37,7 @@ public:
 
   /// Mesh the CAD files of @p scene anew whose element sizes differ from these. Return whether
   /// there are any. Collective. @throws InputError.
-  bool remesh(scene::Scene &scene, MPI_Comm communicator) const;
+  bool remesh(scene::Scene &scene, RunContext &context) const;
 
   /// Return the divided cells of all bodies, with their ids in a mesh of all bodies.
   template <int dim>

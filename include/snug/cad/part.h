@@ -19,12 +19,10 @@ struct Part
 {
   TopoDS_Shape             shape;
   unsigned int             dim;
-  std::vector<std::string> names; ///< of the faces; empty if the file has no name
+  std::vector<std::string> names;     ///< of the faces; empty if the file has no name
+  double                   size = 0.; ///< diagonal of the box of the part [length]
 
   std::vector<TopoDS_Shape> faces() const;
-
-  /// Return the diagonal of the box of the part [length].
-  double size() const;
 };
 
 /**

@@ -1,6 +1,7 @@
 #ifndef snug_scene_read_scene_h
 #define snug_scene_read_scene_h
 
+#include <snug/base/run_context.h>
 #include <snug/scene/scene.h>
 
 #include <mpi.h>
@@ -20,8 +21,8 @@ struct SceneSource
   std::string              output_directory; ///< if not empty, it overrides the entry
   /// function that reads mesh files; if empty, mesh files cannot be read
   std::function<std::string(const std::string &file)> read_file = {};
-  /// communicator whose first rank reads CAD files and runs the program gmsh
-  MPI_Comm communicator = MPI_COMM_SELF;
+  /// run that reads CAD files and gets the verbosity of the scene; null: CAD files cannot be read
+  RunContext *context = nullptr;
 };
 
 /// Kinds of files from which text may be read. Devices and pipes need not end.

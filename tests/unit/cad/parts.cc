@@ -34,11 +34,12 @@ geometry::BodyMeshParameters part(const std::string &file, const double size)
 std::shared_ptr<const geometry::ImportedMesh> imported(const geometry::BodyMeshParameters &of,
                                                        const unsigned int                  dim)
 {
-  const auto *info = testing::UnitTest::GetInstance()->current_test_info();
+  const auto  *info = testing::UnitTest::GetInstance()->current_test_info();
+  std::ostream nowhere(nullptr);
+  RunContext   context(MPI_COMM_WORLD, nowhere);
   return cad::import_cad(of, dim,
-                         "cad-test-" +
-                           std::to_string(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)),
-                         info->name(), MPI_COMM_WORLD);
+                         "cad-test-" + std::to_string(context.n_ranks()) + "/" + info->name(),
+                         context);
 }
 
 std::string failure_reason(const geometry::BodyMeshParameters &of, const unsigned int dim)
