@@ -143,7 +143,7 @@ std::string usage()
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
                   [--petsc "-NAME VALUE ..."]... [--leave-out "KEYWORD, ..."]
     snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
-    snug --translate FILE.inp
+    snug --translate FILE.inp | FILE.step
     snug --validate FILE.prm | --print-parameters | --help | --version
 
 Shape optimization of elastic bodies in contact, with or without friction. FILE.prm may
@@ -168,7 +168,8 @@ also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
     --estimate          make the meshes and print the memory and the time of a run;
                         --ranks N for runs on N MPI ranks
     --translate         print the parameter file of a deck of Abaqus or CalculiX, and
-                        the keywords that are not translated, with their lines
+                        the keywords that are not translated, with their lines; or of
+                        the solids of a CAD file, to which loads are to be added
     --print-parameters  print all entries, their defaults and meanings (Markdown)
     --help, --version
 

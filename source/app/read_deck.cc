@@ -15,8 +15,10 @@ deck::Translation translate_deck(scene::SceneSource &source, const bool must_be_
   if (!deck::is_deck(source.text))
     {
       if (must_be_deck)
-        throw InputError(source.file + ": option '--translate' needs a deck of Abaqus or CalculiX, "
-                                       "which begins with a keyword such as *NODE");
+        throw InputError(source.file +
+                         ": option '--translate' needs a CAD file, which ends with .step, "
+                         ".stp, .iges, .igs, .brep or .brp, or a deck of Abaqus or CalculiX, "
+                         "which begins with a keyword such as *NODE");
       return {};
     }
   try

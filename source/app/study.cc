@@ -10,6 +10,8 @@
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
 #include <snug/base/petsc_options.h>
+#include <snug/cad/import_cad.h>
+#include <snug/cad/translate.h>
 #include <snug/deck/translation.h>
 #include <snug/feti/sparse_factor.h>
 #include <snug/io/summary.h>
@@ -305,10 +307,33 @@ void validate(RunContext &context, const scene::Scene &scene)
     validate_in<3>(context, scene);
 }
 
+namespace {
+/// Return the parameter file of a CAD file. Collective. @throws InputError also if the file was to
+/// be run, because it has no loads.
+std::string translate_cad(const Options &options, const RunContext &context)
+{
+  if (!options.translate)
+    throw InputError(
+      options.file + " is a CAD file, which has no supports and loads; 'snug --translate " +
+      options.file + " > model.prm' prints a parameter file to which they can be added");
+  std::string text;
+  throw_collectively(context.communicator(), [&]() {
+    if (context.rank() == 0)
+      text = cad::translate(options.file);
+  });
+  return text;
+}
+} // namespace
+
 int run(const Options &options)
 {
   reserve_blas_buffer();
-  RunContext         context(MPI_COMM_WORLD, std::cout);
+  RunContext context(MPI_COMM_WORLD, std::cout);
+  if (cad::is_cad_file(options.file))
+    {
+      context.out(Verbosity::quiet) << translate_cad(options, context) << std::flush;
+      return 0;
+    }
   scene::SceneSource source = {
     options.file,
     scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),

@@ -10,16 +10,8 @@
 #include <algorithm>
 
 namespace snug::cad {
-namespace {
-struct Segment
+FaceBorder::FaceBorder(const TopoDS_Face &face)
 {
-  gp_Pnt2d a, b;
-};
-
-/// Return the edges of a face as segments in the plane of its parameters.
-std::vector<Segment> border(const TopoDS_Face &face)
-{
-  std::vector<Segment> result;
   for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next())
     {
       const TopoDS_Edge &edge = TopoDS::Edge(edges.Current());
@@ -34,15 +26,13 @@ std::vector<Segment> border(const TopoDS_Face &face)
       for (unsigned int i = 1; i <= n; ++i)
         {
           const gp_Pnt2d b = curve->Value(first + (last - first) * i / n);
-          result.push_back({a, b});
+          segments.push_back({a, b});
           a = b;
         }
     }
-  return result;
 }
 
-/// Return the ascending v at which the line of a constant u crosses the segments.
-std::vector<double> crossings(const std::vector<Segment> &segments, const double u)
+std::vector<double> FaceBorder::crossings(const double u) const
 {
   std::vector<double> result;
   for (const auto &[a, b] : segments)
@@ -51,7 +41,13 @@ std::vector<double> crossings(const std::vector<Segment> &segments, const double
   std::sort(result.begin(), result.end());
   return result;
 }
-} // namespace
+
+bool FaceBorder::encloses(const double v, const std::vector<double> &crossings) const
+{
+  const auto above = std::lower_bound(crossings.begin(), crossings.end(), v);
+  // A face without edges is a whole closed surface.
+  return segments.empty() || (above - crossings.begin()) % 2 == 1;
+}
 
 std::vector<gp_Pnt2d>
 samples_inside(const TopoDS_Face &face, const unsigned int n, const unsigned int m)
@@ -60,7 +56,7 @@ samples_inside(const TopoDS_Face &face, const unsigned int n, const unsigned int
   BRepTools::UVBounds(face, u, du, v, dv);
   du -= u;
   dv -= v;
-  const auto segments = border(face);
+  const FaceBorder border(face);
   // A sample on the border of the grid may lie on an edge, where rounding would determine whether
   // it is inside. Each sample is tested slightly closer to the middle.
   const auto within = [](const unsigned int i, const unsigned int n) {
@@ -69,14 +65,10 @@ samples_inside(const TopoDS_Face &face, const unsigned int n, const unsigned int
   std::vector<gp_Pnt2d> result;
   for (unsigned int i = 0; i <= n; ++i)
     {
-      const auto at = crossings(segments, u + du * within(i, n));
+      const auto at = border.crossings(u + du * within(i, n));
       for (unsigned int j = 0; j <= m; ++j)
-        {
-          const auto n_below = std::lower_bound(at.begin(), at.end(), v + dv * within(j, m));
-          // A face without edges is a whole closed surface.
-          if (segments.empty() || (n_below - at.begin()) % 2 == 1)
-            result.emplace_back(u + du * i / n, v + dv * j / m);
-        }
+        if (border.encloses(v + dv * within(j, m), at))
+          result.emplace_back(u + du * i / n, v + dv * j / m);
     }
   return result;
 }

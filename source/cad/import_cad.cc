@@ -183,6 +183,12 @@ std::shared_ptr<geometry::ImportedMesh> blocks_of(const MeshedPart            &m
 }
 } // namespace
 
+bool is_cad_file(const std::string &path)
+{
+  const std::set<std::string> endings = {".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
+  return endings.count(ending_of(path)) > 0;
+}
+
 std::shared_ptr<const geometry::ImportedMesh>
 import_cad(const geometry::BodyMeshParameters &parameters,
            const unsigned int                  dim,

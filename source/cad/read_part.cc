@@ -1,5 +1,6 @@
 #include <snug/base/errors.h>
 #include <snug/base/values.h>
+#include <snug/cad/import_cad.h>
 #include <snug/cad/part.h>
 
 #include <BRepBndLib.hxx>
@@ -15,7 +16,11 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Reader.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepBasic_ProductDefinition.hxx>
+#include <StepBasic_ProductDefinitionFormation.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepShape_ManifoldSolidBrep.hxx>
 #include <StepShape_TopologicalRepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
@@ -41,6 +46,8 @@ struct FileShape
   TopoDS_Shape               shape;
   TopTools_IndexedMapOfShape faces;
   std::vector<std::string>   names;
+  /// solids and their names, those of products first
+  std::vector<std::pair<TopoDS_Shape, std::string>> named_solids;
 };
 
 TopTools_IndexedMapOfShape map_of(const TopoDS_Shape &shape, const TopAbs_ShapeEnum kind)
@@ -51,7 +58,7 @@ TopTools_IndexedMapOfShape map_of(const TopoDS_Shape &shape, const TopAbs_ShapeE
 }
 
 /// Return a name without the characters that separate items of lists in a parameter file. CAD
-/// programs write NONE or blanks for no name.
+/// programs write NONE or blanks for no name, OpenCASCADE its own name.
 std::string usable_name(std::string name)
 {
   for (char &c : name)
@@ -59,23 +66,44 @@ std::string usable_name(std::string name)
         static_cast<unsigned char>(c) < ' ')
       c = '_';
   name = trim(name);
-  return name == "NONE" ? "" : name;
+  return name == "NONE" || name.rfind("Open CASCADE STEP translator", 0) == 0 ? "" : name;
 }
 
-InputError file_error(const std::string &path, const std::string &message)
+/// Add the names of products with one solid, and of solids.
+void add_names_of_solids(const StepData_StepModel &model,
+                         const Handle(Transfer_TransientProcess) & transfer,
+                         FileShape &file)
 {
-  return bad_entry("File", path, message);
+  std::vector<std::pair<TopoDS_Shape, std::string>> others;
+  for (int e = 1; e <= model.NbEntities(); ++e)
+    {
+      const auto         product = Handle(StepBasic_ProductDefinition)::DownCast(model.Value(e));
+      const auto         brep    = Handle(StepShape_ManifoldSolidBrep)::DownCast(model.Value(e));
+      const auto         name    = !product.IsNull() ? product->Formation()->OfProduct()->Name()
+                                   : !brep.IsNull()  ? brep->Name()
+                                                     : Handle(TCollection_HAsciiString)();
+      const TopoDS_Shape own =
+        name.IsNull() ? TopoDS_Shape() : TransferBRep::ShapeResult(transfer, model.Value(e));
+      if (own.IsNull() || map_of(own, TopAbs_SOLID).Extent() != 1)
+        continue;
+      const auto usable = usable_name(name->ToCString());
+      if (!usable.empty())
+        (brep.IsNull() ? file.named_solids : others)
+          .emplace_back(map_of(own, TopAbs_SOLID)(1), usable);
+    }
+  file.named_solids.insert(file.named_solids.end(), others.begin(), others.end());
 }
 
+/// @throws InputError without the path of the file, as the functions below.
 FileShape read_step(const std::string &path, const TopAbs_ShapeEnum kind)
 {
   std::string first;
   std::getline(std::ifstream(path), first);
   if (first.rfind("ISO-10303-21", 0) != 0)
-    throw file_error(path, "is not a STEP file, which begins with ISO-10303-21");
+    throw InputError("is not a STEP file, which begins with ISO-10303-21");
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-    throw file_error(path, "cannot be read as a STEP file");
+    throw InputError("cannot be read as a STEP file");
   reader.TransferRoots();
   FileShape result;
   result.shape = reader.OneShape();
@@ -94,6 +122,7 @@ FileShape read_step(const std::string &path, const TopAbs_ShapeEnum kind)
         if (result.faces(f).IsPartner(own))
           result.names[f - 1] = usable_name(item->Name()->ToCString());
     }
+  add_names_of_solids(*model, transfer, result);
   return result;
 }
 
@@ -104,29 +133,29 @@ TopoDS_Shape read_nameless(const std::string &path, const std::string &ending)
   if (ending == ".brep" || ending == ".brp")
     {
       if (!BRepTools::Read(shape, path.c_str(), BRep_Builder()) || shape.IsNull())
-        throw file_error(path, "cannot be read as a BREP file");
+        throw InputError("cannot be read as a BREP file");
       return shape;
     }
   IGESControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-    throw file_error(path, "cannot be read as an IGES file");
+    throw InputError("cannot be read as an IGES file");
   reader.TransferRoots();
   return reader.OneShape();
 }
 
 FileShape read_file(const std::string &path, const TopAbs_ShapeEnum kind)
 {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](const unsigned char c) { return std::tolower(c); });
-  std::error_code unused;
+  // Messages of OpenCASCADE would go to the log.
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  const std::string ending = ending_of(path);
+  std::error_code   unused;
   if (!std::filesystem::is_regular_file(path, unused) || !std::ifstream(path))
-    throw file_error(path, "cannot be read: there is no such file, or it is not readable");
+    throw InputError("cannot be read: there is no such file, or it is not readable");
   if (ending == ".step" || ending == ".stp")
     return read_step(path, kind);
-  if (ending != ".brep" && ending != ".brp" && ending != ".iges" && ending != ".igs")
-    throw file_error(path, "must be a CAD file that ends with .step, .stp, .iges, .igs, .brep or "
-                           ".brp; mesh files need 'Mesh = file'");
+  if (!is_cad_file(path))
+    throw InputError("must be a CAD file that ends with .step, .stp, .iges, .igs, .brep or "
+                     ".brp; mesh files need 'Mesh = file'");
   FileShape result;
   result.shape = read_nameless(path, ending);
   return result;
@@ -150,11 +179,11 @@ std::string box_text(const TopoDS_Shape &shape)
   return text.str();
 }
 
-/// Return the solid that the faces of @p shape enclose; null: none.
-TopoDS_Shape sewn(const TopoDS_Shape &shape)
+/// Return the solid that faces enclose if gaps up to @p tolerance are closed; null: none.
+TopoDS_Shape sewn(const TopoDS_Shape &faces, const double tolerance)
 {
-  BRepBuilderAPI_Sewing sewing(1e-5 * std::sqrt(box_of(shape).SquareExtent()));
-  sewing.Add(shape);
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  sewing.Add(faces);
   sewing.Perform();
   const TopTools_IndexedMapOfShape shells = map_of(sewing.SewedShape(), TopAbs_SHELL);
   if (shells.Extent() != 1 || !BRep_Tool::IsClosed(shells(1)))
@@ -162,6 +191,17 @@ TopoDS_Shape sewn(const TopoDS_Shape &shape)
   TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells(1)));
   BRepLib::OrientClosedSolid(solid);
   return solid;
+}
+
+/// Return the solid that the faces of a file enclose. @throws InputError if they do not enclose
+/// one.
+TopoDS_Shape sewn(const TopoDS_Shape &faces)
+{
+  const double tolerance = 1e-5 * std::sqrt(box_of(faces).SquareExtent());
+  const auto   solid     = sewn(faces, tolerance);
+  if (!solid.IsNull())
+    return solid;
+  throw InputError("contains no solid, and its faces do not enclose one");
 }
 
 /// Return the solid, or in 2D the plane face, with the number @p wanted of the entry Solid.
@@ -189,39 +229,32 @@ void require_in_plane(const TopoDS_Shape &shape, const std::string &path)
 {
   const GeomLib_IsPlanarSurface test(BRep_Tool::Surface(TopoDS::Face(shape)), 1e-7);
   if (!test.IsPlanar() || std::abs(test.Plan().Axis().Direction().Z()) < 1. - 1e-12)
-    throw file_error(path, "must contain a face in the xy plane for a model with Dimension = 2");
+    throw bad_entry("File", path,
+                    "must contain a face in the xy plane for a model with Dimension = 2");
 }
 
-Part part_of(FileShape          file,
-             const std::string &path,
-             const unsigned int solid,
-             const unsigned int dim)
+/// Return the solids of a file, or in 2D its faces.
+TopTools_IndexedMapOfShape bodies_of(const FileShape &file, const unsigned int dim)
 {
   TopTools_IndexedMapOfShape solids = map_of(file.shape, TopAbs_SOLID);
   const auto                 faces  = map_of(file.shape, TopAbs_FACE);
   if (faces.IsEmpty())
-    throw file_error(path, "contains no face");
-  Part part;
-  part.dim = dim;
+    throw InputError("contains no face");
+  if (dim == 2 && !solids.IsEmpty())
+    throw InputError("contains a solid; a model with Dimension = 2 needs a plane face");
   if (dim == 2)
-    {
-      if (!solids.IsEmpty())
-        throw file_error(path, "contains a solid; a model with Dimension = 2 needs a plane face");
-      part.shape = chosen(faces, solid, path, "face");
-      require_in_plane(part.shape, path);
-    }
-  else
-    {
-      if (solids.IsEmpty())
-        {
-          const auto whole = sewn(file.shape);
-          if (whole.IsNull())
-            throw file_error(path, "contains no solid, and its faces do not enclose one");
-          solids.Add(whole);
-        }
-      part.shape = chosen(solids, solid, path, "solid");
-    }
-  part.size = std::sqrt(box_of(part.shape).SquareExtent());
+    return faces;
+  if (solids.IsEmpty())
+    solids.Add(sewn(file.shape));
+  return solids;
+}
+
+Part part_of(const TopoDS_Shape &shape, const FileShape &file, const unsigned int dim)
+{
+  Part part;
+  part.shape = shape;
+  part.dim   = dim;
+  part.size  = std::sqrt(box_of(shape).SquareExtent());
   // Faces that continue each other without an edge are marked, see describe_faces().
   BRepLib::EncodeRegularity(part.shape, M_PI / 360.);
   for (const auto &face : part.faces())
@@ -229,9 +262,20 @@ Part part_of(FileShape          file,
       const int f = file.faces.FindIndex(face);
       part.names.push_back(f == 0 ? "" : file.names[f - 1]);
     }
+  for (const auto &[solid, name] : file.named_solids)
+    if (part.name.empty() && solid.IsPartner(shape))
+      part.name = name;
   return part;
 }
 } // namespace
+
+std::string ending_of(const std::string &path)
+{
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](const unsigned char c) { return std::tolower(c); });
+  return ending;
+}
 
 std::vector<TopoDS_Shape> Part::faces() const
 {
@@ -244,9 +288,31 @@ std::vector<TopoDS_Shape> Part::faces() const
 
 Part read_part(const std::string &path, const unsigned int solid, const unsigned int dim)
 {
-  // Messages of OpenCASCADE would go to the log.
-  Message::DefaultMessenger()->ChangePrinters().Clear();
-  return part_of(read_file(path, dim == 2 ? TopAbs_EDGE : TopAbs_FACE), path, solid, dim);
+  FileShape                  file;
+  TopTools_IndexedMapOfShape bodies;
+  try
+    {
+      file   = read_file(path, dim == 2 ? TopAbs_EDGE : TopAbs_FACE);
+      bodies = bodies_of(file, dim);
+    }
+  catch (const InputError &error)
+    {
+      throw bad_entry("File", path, error.what());
+    }
+  const auto shape = chosen(bodies, solid, path, dim == 2 ? "face" : "solid");
+  if (dim == 2)
+    require_in_plane(shape, path);
+  return part_of(shape, file, dim);
+}
+
+std::vector<Part> read_solids(const std::string &path)
+{
+  const auto        file   = read_file(path, TopAbs_FACE);
+  const auto        bodies = bodies_of(file, 3);
+  std::vector<Part> result;
+  for (int k = 1; k <= bodies.Extent(); ++k)
+    result.push_back(part_of(bodies(k), file, 3));
+  return result;
 }
 
 std::string to_brep(const TopoDS_Shape &shape)

@@ -3,9 +3,11 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepLProp_CLProps.hxx>
 #include <BRepLProp_SLProps.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
@@ -147,5 +149,21 @@ std::vector<SizeSource> size_sources(const Part                          &part,
         result.push_back({point, size});
     }
   return result;
+}
+
+double suggested_size(const Part &part)
+{
+  double smallest = part.size / 8.;
+  for (const auto &face : part.faces())
+    {
+      const double curved = curvature(TopoDS::Face(face));
+      if (curved * smallest > 1.)
+        smallest = 1. / curved;
+    }
+  Bnd_Box box;
+  BRepBndLib::Add(part.shape, box);
+  const gp_XYZ edges = box.CornerMax().XYZ() - box.CornerMin().XYZ();
+  smallest           = std::min({smallest, edges.X(), edges.Y(), edges.Z()});
+  return std::max(smallest, part.size / 20.);
 }
 } // namespace snug::cad

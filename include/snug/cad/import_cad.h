@@ -5,6 +5,9 @@
 #include <snug/geometry/imported_mesh.h>
 
 namespace snug::cad {
+/// Return whether a path has the ending of a file of STEP, IGES or BREP.
+bool is_cad_file(const std::string &path);
+
 /**
  * Return the mesh of a part of a CAD file. The faces of the part are the surfaces of its
  * boundaries. The files of Gmsh are @p stem, which is a path, with endings. The first rank reads

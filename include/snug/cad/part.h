@@ -21,9 +21,16 @@ struct Part
   unsigned int             dim;
   std::vector<std::string> names;     ///< of the faces; empty if the file has no name
   double                   size = 0.; ///< diagonal of the box of the part [length]
+  std::string name = {}; ///< of the product or the solid; empty if the file has no name
 
   std::vector<TopoDS_Shape> faces() const;
 };
+
+/// Return the ending of a path in lower case, ".step".
+std::string ending_of(const std::string &path);
+
+/// Read all solids of a CAD file, as read_part() does. @throws InputError without the path.
+std::vector<Part> read_solids(const std::string &path);
 
 /**
  * Read a file of STEP, IGES or BREP, which the end of @p path indicates. Lengths of STEP and IGES

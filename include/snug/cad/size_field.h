@@ -26,6 +26,11 @@ std::vector<SizeSource> size_sources(const Part                          &part,
                                      const std::map<std::string, double> &sizes,
                                      double                               largest);
 
+/// Return an element size for a first analysis of a part: the smallest of a radius of curvature of
+/// a face, an edge of the box and an eighth of the diagonal of the box, but at least a twentieth of
+/// the diagonal.
+double suggested_size(const Part &part);
+
 /// The element size h(x) = min(H, min_k (h_k + growth |x - x_k|)).
 struct ElementSizes
 {
