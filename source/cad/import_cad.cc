@@ -96,6 +96,20 @@ void check_sizes(const geometry::BodyMeshParameters &parameters,
     }
 }
 
+/// Return the error of sizes that give more than a million elements, with the entries that the user
+/// wrote.
+InputError too_many_elements(const geometry::BodyMeshParameters &parameters)
+{
+  const bool halved = !parameters.halved.empty(), faces = !parameters.face_sizes.empty();
+  const auto n_mesh = std::to_string(parameters.halved.size() + 1);
+  return bad_entry("Element size", to_text(parameters.element_size),
+                   std::string("gives more than a million elements") +
+                     (faces ? " with 'Face sizes'" : "") +
+                     (halved ? " in mesh " + n_mesh + " for 'Target'" : "") + "; increase " +
+                     (faces ? "the sizes" : "the size") +
+                     (halved ? " or reduce 'Maximum levels'" : ""));
+}
+
 /// Return the mesh with the names of the boundaries as names of its groups.
 std::string named(const std::string                         &mesh,
                   const std::map<std::string, unsigned int> &of_group,
@@ -135,7 +149,7 @@ MeshedPart meshed(const geometry::BodyMeshParameters &parameters,
                        parameters.element_size, parameters.size_growth};
     for (const auto &places : parameters.halved)
       sizes.halve(places);
-    return SizeField(part, std::move(sizes)).text();
+    return SizeField(part, std::move(sizes), too_many_elements(parameters)).text();
   });
   std::error_code unused; // writing fails if there is no directory
   std::filesystem::create_directories(std::filesystem::path(stem).parent_path(), unused);

@@ -36,6 +36,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 namespace snug::cad {
@@ -194,14 +195,24 @@ TopoDS_Shape sewn(const TopoDS_Shape &faces, const double tolerance)
 }
 
 /// Return the solid that the faces of a file enclose. @throws InputError if they do not enclose
-/// one.
+/// one, with the tolerance with which they do.
 TopoDS_Shape sewn(const TopoDS_Shape &faces)
 {
   const double tolerance = 1e-5 * std::sqrt(box_of(faces).SquareExtent());
   const auto   solid     = sewn(faces, tolerance);
   if (!solid.IsNull())
     return solid;
-  throw InputError("contains no solid, and its faces do not enclose one");
+  const std::string head = "contains no solid, and its faces do not enclose one";
+  for (const double factor : {10., 100., 1000.})
+    if (!sewn(faces, factor * tolerance).IsNull())
+      {
+        std::ostringstream text;
+        text << std::setprecision(2) << head << " within the tolerance of " << tolerance
+             << "; they enclose one if they are sewn with the tolerance of " << factor * tolerance
+             << " in the CAD program";
+        throw InputError(text.str());
+      }
+  throw InputError(head);
 }
 
 /// Return the solid, or in 2D the plane face, with the number @p wanted of the entry Solid.

@@ -1,5 +1,3 @@
-#include <snug/base/errors.h>
-#include <snug/base/values.h>
 #include <snug/cad/size_field.h>
 
 #include <BRepBndLib.hxx>
@@ -61,8 +59,8 @@ void ElementSizes::halve(const std::vector<Point> &places)
   sources.insert(sources.end(), halved.begin(), halved.end());
 }
 
-SizeField::SizeField(const Part &part, ElementSizes the_sizes)
-  : sizes(std::move(the_sizes)), dim(part.dim)
+SizeField::SizeField(const Part &part, ElementSizes the_sizes, const InputError &too_many)
+  : sizes(std::move(the_sizes)), too_many(too_many), dim(part.dim)
 {
   Bnd_Box box;
   BRepBndLib::Add(part.shape, box);
@@ -163,8 +161,7 @@ void SizeField::add_leaf(const Point                     &lower,
     volume *= (upper[d] - lower[d]) / mean;
   n_elements += part_of_box * volume * elements_per_volume(dim);
   if (n_elements > 1e6)
-    throw bad_entry("Element size", to_text(sizes.largest),
-                    "gives more than a million elements with 'Face sizes'; increase the sizes");
+    throw too_many;
   view += "SH(" + at.str() + "){" + values.str() + "};\n";
 }
 } // namespace snug::cad

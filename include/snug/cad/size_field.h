@@ -1,6 +1,7 @@
 #ifndef snug_cad_size_field_h
 #define snug_cad_size_field_h
 
+#include <snug/base/errors.h>
 #include <snug/cad/part.h>
 
 #include <deal.II/base/point.h>
@@ -52,9 +53,9 @@ struct ElementSizes
 class SizeField
 {
 public:
-  /// The field covers the box of @p part. @throws InputError if the field gives more than a
-  /// million elements.
-  SizeField(const Part &part, ElementSizes sizes);
+  /// The field covers the box of @p part. @throws InputError @p too_many if the field gives more
+  /// than a million elements.
+  SizeField(const Part &part, ElementSizes sizes, const InputError &too_many);
 
   /// Return the field as a view in Gmsh's format .pos.
   const std::string &text() const { return view; }
@@ -63,6 +64,7 @@ private:
   using Point = dealii::Point<3>;
 
   const ElementSizes sizes;
+  const InputError   too_many;
   const unsigned int dim;
   double             part_of_box; ///< fraction of the box that the part fills
   double             n_elements = 0.;

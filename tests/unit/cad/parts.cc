@@ -6,7 +6,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <IGESControl_Writer.hxx>
+#include <TopoDS_Compound.hxx>
 
 #include <gtest/gtest.h>
 
@@ -242,7 +245,13 @@ TEST(Cad, wrong_parts_are_refused_on_all_ranks)
   pin.element_size = 0.;
   expect(pin, 3, "Element size", "must be positive");
   pin.element_size = 1e-4;
-  expect(pin, 3, "Element size", "more than a million elements");
+  expect(pin, 3, "Element size", "more than a million elements; increase the size");
+  pin.face_sizes = {{"foot", 1e-5}};
+  expect(pin, 3, "Element size", "more than a million elements with 'Face sizes'; increase the");
+  pin.face_sizes = {};
+  pin.halved     = {{}};
+  expect(pin, 3, "Element size", "more than a million elements in mesh 2 for 'Target'");
+  pin.halved       = {};
   pin.element_size = 0.5;
   pin.cad_faces    = {{"a", "5"}};
   expect(pin, 3, "CAD faces", "the numbers 1 to 4");
@@ -256,6 +265,31 @@ TEST(Cad, wrong_parts_are_refused_on_all_ranks)
   expect(part("parabola.step", 0.5), 3, "File", "no solid");
   expect(part("nowhere.step", 0.5), 3, "File", "no such file");
   expect(part("block.inp", 0.5), 3, "File", "'Mesh = file'");
+}
+
+/// Faces that do not meet are refused with the tolerance with which they enclose a solid.
+TEST(Cad, faces_with_gaps_name_the_tolerance_that_closes_them)
+{
+  const auto      block = cad::read_part(SNUG_MESHES "pins.brep", 2, 3);
+  BRep_Builder    builder;
+  TopoDS_Compound faces;
+  builder.MakeCompound(faces);
+  gp_Trsf lift;
+  lift.SetTranslation({0., 0., 1e-3});
+  for (const auto &face : block.faces())
+    builder.Add(faces, face.IsSame(block.faces()[5]) ? face.Moved(TopLoc_Location(lift)) : face);
+  auto of = part("", 1.);
+  of.file =
+    "cad-gap-" + std::to_string(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) + ".brep";
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    {
+      ASSERT_TRUE(BRepTools::Write(faces, of.file.c_str()));
+    }
+  MPI_Barrier(MPI_COMM_WORLD);
+  // The diagonal of the block is 1.5.
+  EXPECT_NE(failure_reason(of, 3).find("if they are sewn with the tolerance of 0.0015"),
+            std::string::npos)
+    << failure_reason(of, 3);
 }
 
 /// Files that only have the ending of a CAD file are refused.
