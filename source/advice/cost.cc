@@ -108,6 +108,9 @@ constexpr Constants plane = {3e-5, {3e-5, 3.5e-5}, 1.7e-5,           5e-6, 3e-8,
 constexpr Constants solid = {6e-5, {1.4e-4, 1.2e-3}, 6e-6,    4e-6,   7e-9, 2., 3.75e-8, 4. / 3.,
                              5e-6, {0.020, 0.026},   2.07e-4, 2.5e-3, 0.14};
 
+/// Parts of a solve and of a picture that each load case after the first one takes.
+const double further_solve = 0.5, further_picture = 0.25;
+
 const double base_memory = 175.; ///< of a process [MB]
 const double start_up    = 0.4;  ///< of libraries and MPI [s]
 
@@ -172,13 +175,16 @@ void estimate_times(const scene::Scene &scene, const Constants &of, const double
   cost.setup =
     of.setup * counts.nodes + of.subdomain * counts.subdomains * (1. + counts.subdomains / 8000.);
   cost.factorization = counts.subdomains * (of.factor * n + of.fill * std::pow(n, of.fill_power));
-  cost.solve         = cases * f_mults * f_mult;
-  cost.accuracy      = scene.accuracy.estimate == accuracy::Estimate::none
-                         ? 0.
-                         : cases * of.accuracy[p] * counts.cells;
+  // Further load cases start from the forces of the ones before them.
+  cost.solve    = (1. + further_solve * (cases - 1.)) * f_mults * f_mult;
+  cost.accuracy = scene.accuracy.estimate == accuracy::Estimate::none
+                    ? 0.
+                    : cases * of.accuracy[p] * counts.cells;
   if (scene.accuracy.estimate == accuracy::Estimate::responses)
     cost.accuracy += double(scene.responses.size()) * cost.solve;
-  const double pictures = cases * (scene.task == scene::Task::optimize ? 2. : 1.);
+  // The mesh is prepared once for the pictures of all load cases.
+  const double pictures =
+    (1. + further_picture * (cases - 1.)) * (scene.task == scene::Task::optimize ? 2. : 1.);
   cost.output = pictures * of.output * counts.cells * std::pow(scene.degree + 1., cost.dimension);
   if (scene.task == scene::Task::state)
     return;

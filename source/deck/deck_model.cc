@@ -73,13 +73,32 @@ const std::set<std::string> without_effect = {"NODEFILE",
                                               "CONTACTFORMULATION",
                                               "CONTACTSTABILIZATION"};
 
-/// Throw if the word "PART" and the like has lines that belong to no keyword: a keyword before them
-/// is missing or misspelt.
-void require_no_lines(const Reading &reading, const Keyword &keyword)
+/// Largest numbers of words in data lines. More of them come from a comma as decimal point.
+const std::map<std::string, std::size_t> most_words = {
+  {"NODE", 7},        {"ELASTIC", 3},     {"DENSITY", 2}, {"EXPANSION", 2},        {"FRICTION", 2},
+  {"DLOAD", 9},       {"DSLOAD", 6},      {"CLOAD", 3},   {"BOUNDARY", 4},         {"SPRING", 2},
+  {"CONTACTPAIR", 2}, {"TEMPERATURE", 2}, {"STATIC", 4},  {"INITIALCONDITIONS", 2}};
+
+/// Throw for a data line with too many words.
+void require_few_words(const Reading &reading, const Keyword &keyword)
 {
+  const auto most = most_words.find(keyword.name);
+  if (most == most_words.end())
+    return;
   reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
-    throw error_at_line(line, "'" + words[0] + "' follows " + keyword.title +
-                                ", which has no data lines");
+    std::size_t n = words.size(), allowed = most->second;
+    while (n > 0 && words[n - 1].empty())
+      --n;
+    // A node may have a normal behind its three coordinates, and a pressure is one number.
+    if (keyword.name == "NODE" && n < 7)
+      allowed = 4;
+    if (n > 1 && (keyword.name == "DLOAD" || keyword.name == "DSLOAD") &&
+        upper_case(words[1])[0] == 'P')
+      allowed = 3;
+    if (n > allowed)
+      throw error_at_line(line, keyword.title + " has " + std::to_string(n) +
+                                  " words instead of at most " + std::to_string(allowed) +
+                                  "; a decimal number has a point, and no comma");
   });
 }
 
@@ -118,6 +137,7 @@ void read_heading(Reading &reading, const Keyword &keyword)
 
 void read_keyword(Reading &reading, const KeywordReadings &readings, const Keyword &keyword)
 {
+  require_few_words(reading, keyword);
   const auto elsewhere = read_elsewhere.find(keyword.name);
   const auto found     = readings.find(keyword.name);
   if (without_effect.count(keyword.name) > 0)
@@ -196,6 +216,41 @@ bool Reading::use(const Keyword &keyword, const std::string &set, const unsigned
   return false;
 }
 
+void require_no_lines(const Reading &reading, const Keyword &keyword)
+{
+  reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+    throw error_at_line(line, "'" + words[0] + "' follows " + keyword.title +
+                                ", which has no data lines");
+  });
+}
+
+namespace {
+/// Throw unless all cells have an isotropic material.
+void require_materials(const Reading &reading)
+{
+  const auto &model = reading.model;
+  for (const auto &body : reading.bodies.all())
+    for (const unsigned int e : body.elements)
+      {
+        const auto &element = reading.deck.mesh.elements[e];
+        const auto  name    = model.material_of.find(e);
+        if (name == model.material_of.end())
+          throw error_at_line(element.line, "element " + std::to_string(element.number) +
+                                              " has no material; *SOLID SECTION must assign one");
+        const auto found =
+          std::find_if(model.materials.begin(), model.materials.end(), [&](const auto &material) {
+            return upper_case(material.name) == name->second;
+          });
+        if (found == model.materials.end())
+          throw error_at_line(model.section_lines.at(name->second),
+                              "there is no *MATERIAL '" + name->second + "'");
+        if (!found->youngs_modulus)
+          throw error_at_line(found->line,
+                              "*MATERIAL '" + found->name + "' has no isotropic *ELASTIC");
+      }
+}
+} // namespace
+
 DeckModel read_model(const mesh_file::DeckText &text,
                      const mesh_file::DeckMesh &deck,
                      DeckBodies                &bodies,
@@ -212,6 +267,9 @@ DeckModel read_model(const mesh_file::DeckText &text,
       enter(reading, keyword);
       read_keyword(reading, readings, keyword);
     }
+  if (reading.in_step)
+    throw error_at_line(reading.model.steps.back().line, "*STEP without *END STEP");
+  require_materials(reading);
   return std::move(reading.model);
 }
 } // namespace snug::deck

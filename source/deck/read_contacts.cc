@@ -25,6 +25,8 @@ public:
 
   void read_interaction(const Keyword &keyword)
   {
+    if (keyword.option("NAME").empty())
+      throw keyword_error(keyword, keyword.title + " has no NAME");
     model.interactions.push_back({upper_case(keyword.option("NAME")), keyword.line});
   }
 
@@ -32,6 +34,8 @@ public:
   void read_behavior(const Keyword &keyword)
   {
     const auto law = upper_case(keyword.option("PRESSURE-OVERCLOSURE"));
+    if (law == "HARD" && keyword.options.size() == 1)
+      require_no_lines(reading, keyword);
     if (law == "TIED")
       reading.lacks(keyword, " TIED");
     else if (!law.empty() && law != "HARD")

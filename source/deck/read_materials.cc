@@ -54,6 +54,8 @@ public:
   void read_material(const Keyword &keyword)
   {
     const auto name = keyword.option("NAME");
+    if (name.empty())
+      throw keyword_error(keyword, "*MATERIAL has no NAME");
     for (const auto &material : model.materials)
       if (upper_case(material.name) == upper_case(name))
         throw keyword_error(keyword, "*MATERIAL '" + name + "' occurs twice");
@@ -67,6 +69,8 @@ public:
     const auto numbers = reading.first_line(keyword);
     if (numbers.size() < 2)
       throw keyword_error(keyword, keyword.title + " must have a modulus and a ratio");
+    if (numbers.size() > 2)
+      reading.remarks.not_needed(title_of(keyword) + ": temperature", keyword.line);
     material(keyword).youngs_modulus = numbers[0];
     material(keyword).poissons_ratio = numbers[1];
   }
@@ -85,6 +89,9 @@ public:
   {
     const auto       &sets = reading.deck.sets;
     const std::string name = keyword.option("ELSET"), of = keyword.option("MATERIAL");
+    if (of.empty())
+      throw keyword_error(keyword, keyword.title + " has no MATERIAL");
+    model.section_lines.emplace(upper_case(of), keyword.line);
     for (const auto &prefix : reading.prefixes)
       for (const unsigned int e : sets.elements(name, prefix, keyword.title, keyword.line))
         {

@@ -81,31 +81,16 @@ private:
     return name;
   }
 
-  /// Collect the materials of cells. @throws InputError if a cell has none.
+  /// Collect the materials of cells.
   void collect_materials()
   {
     std::set<std::string> names;
-    for (const auto &body : bodies.all())
-      for (const unsigned int e : body.elements)
-        {
-          const auto found = model.material_of.find(e);
-          if (found == model.material_of.end())
-            throw InputError("the cells of '" + body.name +
-                             "' have no material; *SOLID SECTION must assign one");
-          names.insert(found->second);
-        }
+    for (const auto &of_element : model.material_of)
+      names.insert(of_element.second);
     for (const auto &name : names)
-      {
-        const auto found =
-          std::find_if(model.materials.begin(), model.materials.end(),
-                       [&](const auto &material) { return upper_case(material.name) == name; });
-        if (found == model.materials.end())
-          throw InputError("there is no *MATERIAL '" + name + "'");
-        if (!found->youngs_modulus)
-          throw error_at_line(found->line,
-                              "*MATERIAL '" + found->name + "' has no isotropic *ELASTIC");
-        used.push_back(&*found);
-      }
+      for (const auto &material : model.materials)
+        if (upper_case(material.name) == name)
+          used.push_back(&material);
   }
 
   void write_material(const DeckModel::Material &material)

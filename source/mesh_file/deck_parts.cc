@@ -15,6 +15,9 @@ void refuse_generation(const Keyword &keyword)
     what = "*NODE with SYSTEM = " + system;
   else if (others.count(keyword.name) > 0 || (data && keyword.has("INPUT")))
     what = keyword.title + (data ? " with INPUT" : "");
+  static const std::set<std::string> named = {"NSET", "ELSET", "SURFACE"};
+  if (named.count(keyword.name) > 0 && defined_set(keyword).empty())
+    throw keyword_error(keyword, keyword.title + " has no name");
   if (!what.empty())
     throw keyword_error(keyword, what + " is not supported; write all nodes and elements to "
                                         "one file, in Cartesian coordinates");

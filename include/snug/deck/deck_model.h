@@ -121,21 +121,22 @@ struct DeckModel
     double                      reach      = 0.; ///< [length]
   };
 
-  std::vector<Material>               materials;
-  std::map<unsigned int, std::string> material_of;          ///< element -> material
-  std::map<unsigned int, std::string> region_of;            ///< element -> set of its section
-  Step                                initial;              ///< before the first step
-  std::vector<Step>                   steps;                ///< static steps
-  std::map<unsigned int, double>      initial_temperatures; ///< by node
-  std::vector<Spring>                 springs;
-  std::vector<Interaction>            interactions;
-  std::vector<Contact>                contacts;
-  std::vector<RigidBody>              rigid_bodies;
-  std::vector<Obstacle>               obstacles;
-  std::optional<double>               thickness;
-  std::string                         model  = "solid";
-  unsigned int                        degree = 1;
-  std::string                         units; ///< "mm, N", or ""
+  std::vector<Material>                materials;
+  std::map<unsigned int, std::string>  material_of;   ///< element -> material
+  std::map<unsigned int, std::string>  region_of;     ///< element -> set of its section
+  std::map<std::string, unsigned long> section_lines; ///< material in upper case -> *SOLID SECTION
+  Step                                 initial;       ///< before the first step
+  std::vector<Step>                    steps;         ///< static steps
+  std::map<unsigned int, double>       initial_temperatures; ///< by node
+  std::vector<Spring>                  springs;
+  std::vector<Interaction>             interactions;
+  std::vector<Contact>                 contacts;
+  std::vector<RigidBody>               rigid_bodies;
+  std::vector<Obstacle>                obstacles;
+  std::optional<double>                thickness;
+  std::string                          model  = "solid";
+  unsigned int                         degree = 1;
+  std::string                          units; ///< "mm, N", or ""
 };
 
 /// Read the keywords of a deck. Keywords and options that are not read are noted in @p remarks.

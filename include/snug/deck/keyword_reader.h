@@ -58,6 +58,10 @@ struct Reading
   bool use(const Keyword &keyword, const std::string &set, unsigned long line);
 };
 
+/// Throw if a keyword has data lines, which belong to no keyword: one before them is missing or
+/// misspelt.
+void require_no_lines(const Reading &reading, const mesh_file::Keyword &keyword);
+
 /// Return the title of a keyword, with the name of an included file.
 std::string title_of(const mesh_file::Keyword &keyword);
 

@@ -221,6 +221,13 @@ TEST(DeckKeywords, WrongStructureIsAnError)
     {"*END STEP\n*END STEP\n", "without *STEP"},
     {"*END STEP\n1, 2\n", "which has no data lines"},
     {"*END STEP\n*MATERIAL, NAME=steel\n", "occurs twice"},
+    {"*CLOAD\n13, 2, 7,5\n", "a decimal number has a point"},
+    {"*DSLOAD\ntop, P, 4,0\n", "a decimal number has a point"},
+    {"*END STEP\n*STEP\n*STATIC\n", "*STEP without *END STEP"},
+    {"*END STEP\n*NSET\n1, 2\n", "*NSET has no name"},
+    {"*END STEP\n*SOLID SECTION, ELSET=lid\n3.\n", "has no MATERIAL"},
+    {"*END STEP\n*SURFACE INTERACTION, NAME=J\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n.3\n",
+     "which has no data lines"},
     {"*END STEP\n*AMPLITUDE, NAME=a, SHIFTX=2.\n0., 1.\n", "SHIFTX = 2. is not supported"},
     {"*END STEP\n*STEP\n*END STEP\n*AMPLITUDE, NAME=a, TIME=TOTAL TIME\n0., 1.\n", "TOTAL TIME"},
     {"*END STEP\n*SOLID SECTION, ELSET=lid, MATERIAL=steel\n4.\n", "different thicknesses"},
@@ -229,7 +236,10 @@ TEST(DeckKeywords, WrongStructureIsAnError)
   for (const auto &[loads, message] : wrong)
     try
       {
-        deck::translate(squares("", loads), "deck.inp");
+        auto text = squares("", loads);
+        if (message == "*STEP without *END STEP")
+          text.erase(text.rfind("*END STEP"));
+        deck::translate(text, "deck.inp");
         ADD_FAILURE() << loads;
       }
     catch (const InputError &error)

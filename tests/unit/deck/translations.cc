@@ -85,8 +85,9 @@ TEST(Translations, ForcesWithoutAPlaceAreLeftOut)
             scene.bodies[0].loads.point_forces);
 }
 
-/// Two rows of @p n squares of elements of eight nodes and of @p last, one element.
-std::string strip(const unsigned int n, const std::string &last)
+/// Two rows of @p n squares of elements of eight nodes and of @p last, one element, with @p loads
+/// in a step.
+std::string strip(const unsigned int n, const std::string &last, const std::string &loads = "")
 {
   std::string nodes = "*NODE\n", cells = "*ELEMENT, TYPE=CPS8, ELSET=all\n";
   const auto  node = [](const unsigned int i, const unsigned int j) {
@@ -109,12 +110,13 @@ std::string strip(const unsigned int n, const std::string &last)
     }
   return nodes + cells + "*NSET, NSET=top, GENERATE\n2001, " + node(2 * n + 2, 2) +
          "\n*MATERIAL, NAME=m\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=all, MATERIAL=m\n1.\n"
-         "*STEP\n*STATIC\n";
+         "*STEP\n*STATIC\n" +
+         loads + "*END STEP\n";
 }
 
 TEST(Translations, CellsOfSecondOrderHaveDegree2)
 {
-  const auto text        = strip(2, "CPS8") + "*CLOAD\n2002, 2, 1.\n1002, 2, 1.\n";
+  const auto text        = strip(2, "CPS8", "*CLOAD\n2002, 2, 1.\n1002, 2, 1.\n");
   const auto translation = deck::translate(text, "deck.inp");
   const auto scene       = scene_of(translation, text);
   EXPECT_EQ(scene.degree, 2u);
@@ -144,7 +146,7 @@ TEST(Translations, TheDegreeIsThatOfTheRichestElements)
 
 TEST(Translations, ForcesOfManyNodesArePointForces)
 {
-  const auto text = strip(9, "CPS8") + "*CLOAD\ntop, 2, 1.\n2001, 1, 1.\n"; // of 21 nodes
+  const auto text = strip(9, "CPS8", "*CLOAD\ntop, 2, 1.\n2001, 1, 1.\n"); // of 21 nodes
   EXPECT_EQ(scene_of(deck::translate(text, "deck.inp"), text).bodies[0].loads.point_forces.size(),
             21u);
 }
