@@ -1,4 +1,5 @@
 #include <snug/app/conclusion.h>
+#include <snug/app/result_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,25 +15,15 @@ using optimization::OptimizationResult;
 const double most_change = 1e-3, most_violation = 1e-6;
 
 template <int dim>
-void print_end(const ShapeProblem<dim>                  &problem,
-               const OptimizationResult                 &result,
-               const std::vector<io::Summary::State>    &first,
-               const typename ShapeProblem<dim>::States &last)
+void print_end(const Search<dim> &search, const OptimizationResult &result)
 {
-  auto &out = problem.context.out(Verbosity::quiet);
-  out << (result.success ? "converged: " : "stopped: ") << result.stop_reason << " after "
-      << counted(result.iterations, "iteration") << " and "
-      << counted(result.evaluations, "evaluation") << '\n'
-      << problem.scene.optimization.objective << ' ' << result.objective_initial << " -> "
-      << result.objective_final
-      << scene::unit_after_number(problem.scene, problem.scene.optimization.objective);
-  const auto pressure = Units(problem.scene.units).after_number("force/length^2");
-  for (unsigned int c = 0; c < last.size(); ++c)
-    out << (last.size() == 1 ? "" : ", load case " + problem.scene.load_cases[c].name)
-        << ", peak pressure " << first[c]["max_pressure"].get<double>() << " -> "
-        << last[c].max_pressure << pressure << ", active contacts " << first[c]["active_contacts"]
-        << " -> " << last[c].active_contacts;
-  out << std::endl;
+  search.problem.context.out(Verbosity::quiet)
+    << (result.success ? "converged: " : "stopped: ") << result.stop_reason << " after "
+    << counted(result.iterations, "iteration") << " and "
+    << counted(result.evaluations, "evaluation") << std::endl;
+  auto first      = search.record.first;
+  first.objective = result.objective_initial;
+  print_result_table(search, first, result.evaluation);
 }
 
 /// Return the values of the design found after a new contact search, or nothing if the states are
@@ -130,6 +121,20 @@ void report_gain(Search<dim>                              &search,
        "mesh; set a smaller error in 'Accuracy/Target'",
        gain.initial - gain.final, error});
 }
+/// Add the constraints and their values to the summary.
+template <int dim>
+void add_constraints(Search<dim> &search, const OptimizationResult &result)
+{
+  using Side = optimization::Limit::Side;
+  for (const auto &constraint :
+       search.objective.constraint_values(search.record.first.reported, result.evaluation.reported))
+    search.results.summary.optimization->constraints.push_back(
+      {constraint.name, constraint.initial, constraint.value, constraint.limit,
+       constraint.side == Side::at_most ? "<="
+       : constraint.side == Side::equal ? "="
+                                        : ">=",
+       constraint.violation, constraint.is_active});
+}
 } // namespace
 
 template <int dim>
@@ -160,7 +165,8 @@ void report_result(Search<dim>                            &search,
   gradient.seconds             = gradients.seconds;
   gradient.values              = result.evaluation.gradient;
   results.summary.optimization = {{result}, to_text(result.algorithm)};
-  print_end(problem, result, results.first(), states);
+  add_constraints(search, result);
+  print_end(search, result);
   report_gain(search, result, states, prior);
   report_paired_anew(search, result, prior.is_paired);
   results.write_summary();

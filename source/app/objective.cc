@@ -72,6 +72,7 @@ typename Objective<dim>::Quantity Objective<dim>::make_constraint(const std::str
   const auto bound = optimization::read_limit(limit);
   Quantity   constraint;
   constraint.name     = name + ' ' + limit;
+  constraint.of       = of.response;
   constraint.response = problem.make_response(of.response);
   constraint.target   = bound.value;
   constraint.side     = bound.side;
@@ -206,6 +207,37 @@ DesignValues Objective<dim>::values(const States &states) const
 }
 
 template <int dim>
+double Objective<dim>::Quantity::violation(const double value) const
+{
+  const double c    = sign() * (value - target);
+  const double size = side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
+  return size / (target == 0. ? 1. : std::abs(target));
+}
+
+template <int dim>
+std::vector<typename Objective<dim>::ConstraintValue>
+Objective<dim>::constraint_values(const std::vector<double> &initial,
+                                  const std::vector<double> &reported) const
+{
+  // Values closer to a limit than the optimizer's tolerance usually leaves them are at the limit.
+  const double tolerance = std::max(1e-4, problem.scene.optimization.constraint_tolerance);
+  std::vector<ConstraintValue> result;
+  for (std::size_t i = 1; i < quantities.size(); ++i)
+    {
+      const auto       &quantity = quantities[i];
+      const std::size_t back     = quantities.size() - i;
+      const double      value    = reported[reported.size() - back];
+      const double      distance = std::abs(value - quantity.target);
+      result.push_back({quantity.name, scene::unit_after_number(problem.scene, quantity.of),
+                        initial[initial.size() - back], value, quantity.target, quantity.side,
+                        quantity.violation(value),
+                        quantity.violation(value) > 0. ||
+                          distance <= tolerance * std::max(1e-300, std::abs(quantity.target))});
+    }
+  return result;
+}
+
+template <int dim>
 std::pair<double, std::string>
 Objective<dim>::most_violated(const std::vector<double> &values) const
 {
@@ -213,11 +245,8 @@ Objective<dim>::most_violated(const std::vector<double> &values) const
   const std::size_t              first  = values.size() + 1 - quantities.size();
   for (unsigned int i = 1; i < quantities.size(); ++i)
     {
-      const Quantity &quantity = quantities[i];
-      const double    c        = quantity.sign() * (values[first + i - 1] - quantity.target);
-      const double    size =
-        quantity.side == optimization::Limit::Side::equal ? std::abs(c) : std::max(0., c);
-      const double violation = size / (quantity.target == 0. ? 1. : std::abs(quantity.target));
+      const Quantity &quantity  = quantities[i];
+      const double    violation = quantity.violation(values[first + i - 1]);
       if (violation > result.first)
         result = {violation, quantity.name};
     }

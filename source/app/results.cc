@@ -286,7 +286,11 @@ void Results<dim>::write_summary()
   summary.warnings    = context.warnings();
   throw_collectively(context.communicator(), [&]() {
     if (context.rank() == 0)
-      summary.write(path("summary.json"));
+      {
+        summary.write(path("summary.json"));
+        if (!summary.load_cases.empty())
+          io::write_text_file(path("load_cases.csv"), summary.load_case_table());
+      }
   });
 }
 

@@ -89,12 +89,78 @@ void Search<dim>::warn_of_weak_contacts(const Design &design)
                                     "; continuing with those of the strongly active contacts");
 }
 
+namespace {
+/// Return whether prescribed displacements, positions and overlaps alone load the bodies, so that
+/// forces fall if faces retreat.
+bool has_no_force(const scene::Scene &scene)
+{
+  const auto is_free = [](const scene::LoadParameters &loads) {
+    return loads.pressure.empty() && loads.traction.empty() && loads.force.empty() &&
+           loads.moment.empty() && loads.point_forces.empty() && loads.line_forces.empty();
+  };
+  return scene.gravity.empty() &&
+         std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                     [&](const auto &body) {
+                       return is_free(body.loads) && body.body_force.empty() &&
+                              body.temperature.empty();
+                     }) &&
+         std::all_of(scene.load_cases.begin(), scene.load_cases.end(), [&](const auto &load_case) {
+           return is_free(load_case.loads) && load_case.temperatures.empty() &&
+                  load_case.gravity.empty();
+         });
+}
+
+/// Return what a search may do that its user does not want, as warnings.
+std::vector<Warning> search_warnings(const scene::Scene                                &scene,
+                                     const std::vector<std::pair<std::string, double>> &initial)
+{
+  std::vector<Warning> result;
+  for (unsigned int i = 0; i < initial.size(); ++i)
+    if (initial[i].second < 0. &&
+        optimization::read_limit(scene.optimization.constraints[i].second).of_initial)
+      result.push_back({"negative limit",
+                        "the constraint '" + initial[i].first + "' refers to the negative value " +
+                          to_text(initial[i].second) + ": above it the amount is smaller",
+                        initial[i].second, 0.});
+  const auto quantity_of = [&](const std::string &name) {
+    return scene::response_called(scene, name)->quantity;
+  };
+  const auto of_objective = quantity_of(scene.optimization.objective);
+  const bool is_pressure  = of_objective.find("pressure") != std::string::npos;
+  const bool is_limited =
+    std::any_of(scene.optimization.constraints.begin(), scene.optimization.constraints.end(),
+                [&](const auto &constraint) {
+                  const auto of =
+                    quantity_of(scene::constraint_name(scene, constraint.first).response);
+                  return of.find("force") != std::string::npos ||
+                         of.find("energy") != std::string::npos ||
+                         of.find("reaction") != std::string::npos ||
+                         of.find("moment") != std::string::npos || of == "compliance";
+                });
+  if (is_pressure && !is_limited && has_no_force(scene))
+    result.push_back({"retreat", "displacements alone load the bodies, and no constraint limits a "
+                                 "force: the " +
+                                   of_objective +
+                                   " also falls if the face retreats; limit the contact force, as "
+                                   "in 'force: >= initial'"});
+  return result;
+}
+} // namespace
+
 /// Summarize the first design of all searches, and print the header of the table of iterations.
 template <int dim>
 void Search<dim>::report_first(const Iteration &iteration)
 {
   auto &out              = problem.context.out();
   record.first_violation = iteration.constraint_violation;
+  record.first.objective = iteration.evaluation.objective;
+  record.first.reported  = iteration.evaluation.reported;
+  std::vector<std::pair<std::string, double>> initial;
+  for (const auto &constraint :
+       objective.constraint_values(record.first.reported, record.first.reported))
+    initial.emplace_back(constraint.name, constraint.value);
+  for (const auto &warning : search_warnings(problem.scene, initial))
+    problem.context.warn(warning);
   if (const auto *analysis = analyses.last(iteration.x); analysis && results.first().empty())
     {
       const auto &of_objective = objective.gradients(iteration.x).of_response.front();

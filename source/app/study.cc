@@ -7,6 +7,7 @@
 #include <snug/app/optimize.h>
 #include <snug/app/read_deck.h>
 #include <snug/app/sensitivity.h>
+#include <snug/app/state_report.h>
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
 #include <snug/base/petsc_options.h>
@@ -29,93 +30,17 @@
 
 namespace snug::app {
 namespace {
-/// Print the certificate of a state, with the tolerance of the state if it is larger than usual:
-/// states for targets are solved only as accurately as the error of their mesh requires.
-template <int dim>
-void print_certificate(std::ostream &out, const state::ContactState<dim> &state)
-{
-  const auto &errors = state.certificate;
-  out << "independent check";
-  if (state.tolerance > qp::SolverParameters().relative_tolerance)
-    out << " of a solution with the relative tolerance " << state.tolerance;
-  out << ", relative errors: equilibrium " << errors.equilibrium << ", continuity "
-      << errors.continuity << ", penetration " << errors.penetration << ", negative pressure "
-      << errors.negative_pressure << ", complementarity " << errors.complementarity;
-  if (state.has_friction())
-    out << ", cone " << errors.cone << ", creep " << errors.creep << ", dissipation "
-        << errors.dissipation;
-  out << std::endl;
-}
-
-/// Return the components of a moment as text, in the plane only the last one.
-template <int dim>
-std::string moment_text(const dealii::Tensor<1, 3> &moment)
-{
-  std::ostringstream text;
-  if (dim == 2)
-    text << moment[2];
-  else
-    text << moment;
-  return text.str();
-}
-
-template <int dim>
-void print_state(std::ostream &out, const Units &units, const state::ContactState<dim> &state)
-{
-  const std::string energy = units.after_number("force length");
-  out << "potential energy " << state.energy << energy << ", compliance " << state.compliance
-      << energy << ", strain energy " << state.strain_energy << energy << "\ncontact force ("
-      << state.contact_force << ")" << units.after_number("force") << ", contact area "
-      << state.contact_area << units.after_number("length^2") << ", peak pressure "
-      << state.max_pressure << units.after_number("force/length^2") << '\n';
-  if (state.has_friction())
-    out << "friction: " << state.slipping_contacts << " of "
-        << counted(state.active_contacts, "contact") << " slip, dissipation " << state.dissipation
-        << energy << '\n';
-}
-
-template <int dim>
-void print_details(std::ostream &out, const Units &units, const state::ContactState<dim> &state)
-{
-  const std::string length = units.after_number("length"), force = units.after_number("force"),
-                    moment = units.after_number("force length");
-  out << "active contacts: " << state.active_contacts << " of " << state.contact.size() << ", "
-      << state.weak_contacts << " weakly active, strict complementarity margin "
-      << state.degeneracy_distance << "\nminimum scaled Jacobian: " << state.least_scaled_jacobian
-      << '\n';
-  for (const auto &pair : state.pairs)
-    out << "  contact " << pair.name << ": force (" << pair.force << ")" << force << ", moment ("
-        << moment_text<dim>(pair.moment) << ")" << moment << " about (" << pair.centre << ")"
-        << length << ", area " << pair.contact_area << units.after_number("length^2")
-        << ", peak pressure " << pair.max_pressure << units.after_number("force/length^2")
-        << " at (" << pair.peak << ")" << length << " with face size " << pair.peak_size << length
-        << ", active contacts " << pair.active_contacts << " of " << pair.rows << '\n';
-  for (const auto &reaction : state.reactions)
-    out << "  support " << reaction.name << ": force (" << reaction.force << ")" << force
-        << ", moment (" << moment_text<dim>(reaction.moment) << ")" << moment << " about ("
-        << reaction.centre << ")" << length << '\n';
-  out << "sum of loads (" << state.load << ")" << force << ", with reactions and obstacle forces ("
-      << state.balance << ")" << force << '\n';
-  out << state.dual.method << ": " << counted(state.dual.outer_iterations, "outer iteration")
-      << ", " << counted(state.f_mults, "F-mult") << '\n';
-  print_certificate(out, state);
-}
-
 template <int dim>
 void report(const ShapeProblem<dim>            &problem,
             Results<dim>                       &results,
             typename ShapeProblem<dim>::States &states)
 {
-  auto       &out = problem.context.out(Verbosity::quiet);
-  const Units units(problem.scene.units);
+  auto &out = problem.context.out(Verbosity::quiet);
   for (auto &state : states)
     {
       if (problem.scene.report_linear_reference)
         state.linear_f_mults = problem.solver->linear_f_mults(state);
-      if (states.size() > 1)
-        out << "load case " << problem.scene.load_cases[state.load_case].name << ": ";
-      print_state(out, units, state);
-      print_details(problem.context.out(), units, state);
+      print_state(problem, state);
       for (const auto &[name, value] : results.response_values(state))
         out << name << ' ' << value << scene::unit_after_number(problem.scene, name) << std::endl;
     }

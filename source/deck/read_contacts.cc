@@ -27,6 +27,11 @@ public:
   {
     if (keyword.option("NAME").empty())
       throw keyword_error(keyword, keyword.title + " has no NAME");
+    unsigned int n_lines = 0; // Abaqus has one line with the width of plane models
+    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (++n_lines > 1)
+        throw error_at_line(line, "'" + words[0] + "' is a further line of " + keyword.title);
+    });
     model.interactions.push_back({upper_case(keyword.option("NAME")), keyword.line});
   }
 
@@ -48,8 +53,9 @@ public:
     if (model.interactions.empty())
       throw keyword_error(keyword, keyword.title + " must follow *SURFACE INTERACTION");
     const auto numbers = reading.first_line(keyword);
-    if (!numbers.empty())
-      model.interactions.back().friction = numbers[0];
+    if (numbers.empty())
+      throw keyword_error(keyword, keyword.title + " must have a coefficient");
+    model.interactions.back().friction = numbers[0];
     if (numbers.size() > 1)
       reading.remarks.replaced("sticking without slip instead of the second number of " +
                                  title_of(keyword),
@@ -59,6 +65,8 @@ public:
   /// Read a line "slave surface, master surface".
   void read_pair(const Keyword &keyword)
   {
+    if (!keyword.has("INTERACTION"))
+      throw keyword_error(keyword, keyword.title + " has no INTERACTION");
     require_interaction(keyword, keyword.option("INTERACTION"));
     reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (words.size() < 2)

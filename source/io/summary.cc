@@ -2,6 +2,7 @@
 #include <snug/io/text_file.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace snug::io {
 namespace {
@@ -65,6 +66,20 @@ Json summary_part(const Summary::Gain &gain)
           {"counts", gain.counts}};
 }
 
+Json summary_part(const std::vector<Summary::Constraint> &constraints)
+{
+  Json part = Json::array();
+  for (const auto &constraint : constraints)
+    part.push_back({{"name", constraint.name},
+                    {"initial", constraint.initial},
+                    {"value", constraint.value},
+                    {"limit", constraint.limit},
+                    {"relation", constraint.relation},
+                    {"violation", constraint.violation},
+                    {"active", constraint.active}});
+  return part;
+}
+
 Json summary_part(const Summary::Optimization &optimization)
 {
   return {{"algorithm", optimization.algorithm},
@@ -73,6 +88,7 @@ Json summary_part(const Summary::Optimization &optimization)
           {"objective_initial", optimization.objective_initial},
           {"objective_final", optimization.objective_final},
           {"constraint_violation", optimization.constraint_violation},
+          {"constraints", summary_part(optimization.constraints)},
           {"objective_paired_anew", optimization.objective_paired_anew},
           {"constraint_violation_paired_anew", optimization.constraint_violation_paired_anew},
           {"gain", summary_part(optimization.gain)},
@@ -207,6 +223,52 @@ Json summary_part(const Summary::Memory &memory)
   return {{"largest", memory.largest}, {"total", memory.total}, {"stages", stages}};
 }
 } // namespace
+
+namespace {
+/// Add the numbers of a state to a table: numbers, components of vectors and responses by name.
+void add_numbers(const Json &state, std::vector<std::string> &names, std::vector<double> &numbers)
+{
+  const auto add = [&](const std::string &name, const Json &value) {
+    names.push_back(name);
+    numbers.push_back(value.is_number() ? value.get<double>() : Summary::none);
+  };
+  for (const char *key :
+       {"contact_area", "max_pressure", "active_contacts", "energy", "compliance", "strain_energy"})
+    add(key, state.at(key));
+  for (std::size_t d = 0; d < state.at("contact_force").size(); ++d)
+    add(std::string("contact_force_") + "xyz"[d], state.at("contact_force")[d]);
+  for (const auto &[name, value] : state.at("responses").items())
+    add(name, value);
+}
+} // namespace
+
+std::string Summary::load_case_table() const
+{
+  std::ostringstream text;
+  for (const auto &load_case : load_cases)
+    {
+      const auto add_row = [&](const char *design, const State &state) {
+        std::vector<std::string> names;
+        std::vector<double>      numbers;
+        add_numbers(state, names, numbers);
+        if (text.tellp() == 0)
+          {
+            text << "load_case,design";
+            for (const auto &name : names)
+              text << ',' << name;
+            text << '\n';
+          }
+        text << load_case.name << ',' << design;
+        for (const double number : numbers)
+          text << ',' << exact(number);
+        text << '\n';
+      };
+      if (load_case.initial_state)
+        add_row("first", *load_case.initial_state);
+      add_row("last", load_case.state);
+    }
+  return text.str();
+}
 
 std::string Summary::json() const
 {

@@ -52,6 +52,22 @@ public:
   /// Return the objective and the constraints of @p states. Collective.
   DesignValues values(const States &states) const;
 
+  /// A constraint and its values.
+  struct ConstraintValue
+  {
+    std::string               name; ///< as in the scene, "volume <= initial"
+    std::string               unit; ///< of the response; "" without names of units
+    double                    initial, value, limit;
+    optimization::Limit::Side side;
+    double                    violation; ///< of the value, relative to the limit
+    bool                      is_active; ///< whether the value is at the limit or beyond it
+  };
+
+  /// Return the constraints with their values in the first and in the last design. The last of
+  /// @p initial and of @p reported are the values of the responses that the constraints limit.
+  std::vector<ConstraintValue> constraint_values(const std::vector<double> &initial,
+                                                 const std::vector<double> &reported) const;
+
   /// Return the maximum violation of a constraint, relative to its limit, and the name of the
   /// constraint as in the scene, such as "volume <= initial". The last of @p values are those of
   /// the responses that the constraints limit. Return {0, ""} if the values satisfy all
@@ -75,6 +91,7 @@ private:
   struct Quantity
   {
     std::string                                    name = {}; ///< of a constraint in the scene
+    std::string                                    of   = {}; ///< name of its response
     std::shared_ptr<const response::Response<dim>> response;
     std::vector<unsigned int>                      load_cases;
     std::vector<double>                            weights; ///< of the load cases
@@ -85,6 +102,9 @@ private:
 
     /// Return the sign in c = sign (J - target), with c = 0 or c <= 0.
     double sign() const { return side == optimization::Limit::Side::at_least ? -1. : 1.; }
+
+    /// Return the violation of the limit by J, relative to the limit.
+    double violation(double value) const;
 
     /// Return J and its derivatives as a function of the values in the load cases.
     optimization::Combined combined(const std::vector<double> &values) const

@@ -24,11 +24,12 @@ struct SearchRecord
                const scene::Scene      &scene,
                bool                     restart);
 
-  Results<dim>  &results;
-  double         first_violation = 0.; ///< maximum violation of constraints at the first design
-  io::History    history;
-  SearchProgress progress;
-  optimization::Journal journal;
+  Results<dim> &results;
+  double        first_violation = 0.; ///< maximum violation of constraints at the first design
+  optimization::Evaluation first;     ///< of the first design, without derivatives
+  io::History              history;
+  SearchProgress           progress;
+  optimization::Journal    journal;
 };
 
 /**

@@ -85,12 +85,23 @@ struct Summary
     bool counts = false;
   };
 
+  /// A constraint in the first and in the last design.
+  struct Constraint
+  {
+    std::string name; ///< as in the scene
+    double      initial, value, limit;
+    std::string relation;  ///< <=, = or >=
+    double      violation; ///< relative to the limit
+    bool        active;
+  };
+
   struct Optimization : optimization::OptimizationResult
   {
     std::string         algorithm;
     std::optional<Gain> gain = {}; ///< present if errors of the objective are estimated
     /// values of the final design after a new contact search, if the contact is paired differently
-    double objective_paired_anew = none, constraint_violation_paired_anew = none;
+    double                  objective_paired_anew = none, constraint_violation_paired_anew = none;
+    std::vector<Constraint> constraints = {};
   };
 
   /// A load case of a run with several load cases.
@@ -176,6 +187,9 @@ struct Summary
 
   /// Return the JSON text. Doubles are read back as the same numbers.
   std::string json() const;
+
+  /// Return the content of load_cases.csv: a line per load case, and for optimizations per design.
+  std::string load_case_table() const;
 
   /// Write json() to the file @p path. For one rank.
   /// @throws std::runtime_error if the file cannot be written.

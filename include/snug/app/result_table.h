@@ -1,0 +1,18 @@
+#ifndef snug_app_result_table_h
+#define snug_app_result_table_h
+
+#include <snug/app/search.h>
+
+namespace snug::app {
+/**
+ * Print the objective, the constraints with their limits, and all other values of an optimization
+ * in its first and its last design as a table. A constraint is active if its value is at its limit.
+ * @param[in] first,last Evaluations of the first and of the last design.
+ */
+template <int dim>
+void print_result_table(const Search<dim>              &search,
+                        const optimization::Evaluation &first,
+                        const optimization::Evaluation &last);
+} // namespace snug::app
+
+#endif

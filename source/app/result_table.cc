@@ -1,0 +1,105 @@
+#include <snug/app/result_table.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace snug::app {
+namespace {
+/// A row of the table.
+struct Row
+{
+  std::string name, first, last, remark;
+};
+
+/// Return a number with 6 digits. Numbers below 1e-6 of @p scale are round-off.
+std::string text_of(const double number, const double scale)
+{
+  std::ostringstream text;
+  text << std::setprecision(6) << (std::abs(number) <= 1e-6 * scale ? 0. : number);
+  return text.str();
+}
+
+Row make_row(const std::string &name,
+             const double       first,
+             const double       last,
+             const std::string &unit,
+             const std::string &remark = "")
+{
+  const double scale = std::max(std::abs(first), std::abs(last));
+  return {name, text_of(first, scale), text_of(last, scale) + unit, remark};
+}
+
+template <int dim>
+std::string remark_of(const typename Objective<dim>::ConstraintValue &constraint)
+{
+  std::string remark = "limit " + text_of(constraint.limit, 0.);
+  if (constraint.violation > 0. && text_of(constraint.violation, 1.) != "0")
+    remark += ", violated by " + text_of(100. * constraint.violation, 0.) + " %";
+  else
+    remark += constraint.is_active ? ", active" : ", not active";
+  return remark;
+}
+
+void print(std::ostream &out, const std::vector<Row> &rows)
+{
+  std::size_t name = 0, first = 0, last = 0;
+  for (const auto &row : rows)
+    {
+      name  = std::max(name, row.name.size());
+      first = std::max(first, row.first.size());
+      last  = std::max(last, row.last.size());
+    }
+  for (const auto &row : rows)
+    {
+      std::ostringstream line;
+      line << "  " << std::left << std::setw(int(name)) << row.name << "  " << std::setw(int(first))
+           << row.first << "  " << std::setw(int(last)) << row.last;
+      if (!row.remark.empty())
+        line << "  " << row.remark;
+      const auto text = line.str();
+      out << text.substr(0, text.find_last_not_of(' ') + 1) << '\n';
+    }
+  out << std::flush;
+}
+} // namespace
+
+template <int dim>
+void print_result_table(const Search<dim>              &search,
+                        const optimization::Evaluation &first,
+                        const optimization::Evaluation &last)
+{
+  const auto       &scene     = search.problem.scene;
+  const auto       &objective = scene.optimization.objective;
+  std::vector<Row>  rows      = {{"", "first design", "last design", ""}};
+  const std::string combined  = to_text(scene.optimization.combine);
+  const bool        is_one    = search.problem.n_load_cases() == 1;
+  rows.push_back(make_row(is_one ? objective : combined + " of " + objective, first.objective,
+                          last.objective, scene::unit_after_number(scene, objective), "objective"));
+  for (const auto &constraint : search.objective.constraint_values(first.reported, last.reported))
+    rows.push_back(make_row(constraint.name, constraint.initial, constraint.value, constraint.unit,
+                            remark_of<dim>(constraint)));
+  const auto names    = search.problem.value_names();
+  const auto pressure = Units(scene.units).after_number("force/length^2");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      const auto dot      = names[i].rfind("max_pressure");
+      const bool is_peak  = dot != std::string::npos && dot + 12 == names[i].size();
+      const auto response = names[i].substr(is_one ? 0 : names[i].find('.') + 1);
+      if (is_peak)
+        rows.push_back(make_row(names[i].substr(0, dot) + "largest nodal pressure",
+                                first.reported[i], last.reported[i], pressure));
+      else if (!is_one || response != objective)
+        rows.push_back(make_row(names[i], first.reported[i], last.reported[i],
+                                scene::unit_after_number(scene, response)));
+    }
+  print(search.problem.context.out(Verbosity::quiet), rows);
+}
+
+template void print_result_table(const Search<2> &,
+                                 const optimization::Evaluation &,
+                                 const optimization::Evaluation &);
+template void print_result_table(const Search<3> &,
+                                 const optimization::Evaluation &,
+                                 const optimization::Evaluation &);
+} // namespace snug::app

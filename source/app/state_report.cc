@@ -1,0 +1,160 @@
+#include <snug/app/state_report.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace snug::app {
+namespace {
+/// Components of vectors below this fraction of the largest vector of their kind are round-off.
+const double round_off = 1e-6;
+
+/// Return a vector as "(1 0 -2)".
+template <int n>
+std::string text_of(const dealii::Tensor<1, n> &vector, const double scale)
+{
+  std::ostringstream text;
+  for (unsigned int d = 0; d < n; ++d)
+    text << (d == 0 ? "(" : " ") << (std::abs(vector[d]) <= round_off * scale ? 0. : vector[d]);
+  return text.str() + ")";
+}
+
+/// Return a moment, in the plane its last component alone.
+template <int dim>
+std::string moment_text(const dealii::Tensor<1, 3> &moment, const double scale)
+{
+  if (dim == 3)
+    return text_of(moment, scale);
+  return text_of(dealii::Tensor<1, 1>({moment[2]}), scale);
+}
+
+/// The displacement of the node that moves farthest, and its place.
+template <int dim>
+struct LargestDisplacement
+{
+  double                 size = -1.;
+  dealii::Tensor<1, dim> displacement, position;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive & size & displacement & position;
+  }
+};
+
+template <int dim>
+LargestDisplacement<dim> largest_displacement(const state::ContactState<dim> &state,
+                                              MPI_Comm                        communicator)
+{
+  LargestDisplacement<dim> result;
+  for (unsigned int node = 0; node < state.displacement.size(); ++node)
+    if (const double size = state.displacement[node].norm(); size > result.size)
+      result = {size, state.displacement[node], state.positions[node]};
+  for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, result))
+    if (other.size > result.size)
+      result = other;
+  return result;
+}
+
+/// Return the largest force, and the largest moment, of a state.
+template <int dim>
+std::pair<double, double> largest_forces(const state::ContactState<dim> &state)
+{
+  std::pair<double, double> result = {state.load.norm(), 0.};
+  for (const auto &pair : state.pairs)
+    result = {std::max(result.first, pair.force.norm()),
+              std::max(result.second, pair.moment.norm())};
+  for (const auto &reaction : state.reactions)
+    result = {std::max(result.first, reaction.force.norm()),
+              std::max(result.second, reaction.moment.norm())};
+  return result;
+}
+
+/// Print the result of the check of the solution.
+template <int dim>
+void print_certificate(RunContext &context, const state::ContactState<dim> &state)
+{
+  const auto &errors = state.certificate;
+  context.out() << "solution check: largest relative error " << errors.worst();
+  if (state.tolerance > qp::SolverParameters().relative_tolerance)
+    context.out() << ", tolerance " << state.tolerance << " of the target";
+  context.out() << std::endl;
+  auto &out = context.out(Verbosity::debug);
+  out << "  equilibrium " << errors.equilibrium << ", continuity " << errors.continuity
+      << ", penetration " << errors.penetration << ", negative pressure "
+      << errors.negative_pressure << ", complementarity " << errors.complementarity;
+  if (state.has_friction())
+    out << ", cone " << errors.cone << ", creep " << errors.creep << ", dissipation "
+        << errors.dissipation;
+  out << std::endl;
+}
+
+/// Print the forces of pairs and supports.
+template <int dim>
+void print_forces(RunContext &context, const Units &units, const state::ContactState<dim> &state)
+{
+  const std::string length = units.after_number("length"), force = units.after_number("force"),
+                    moment     = units.after_number("force length");
+  const auto [forces, moments] = largest_forces(state);
+  auto &out = context.out(), &details = context.out(Verbosity::debug);
+  for (const auto &pair : state.pairs)
+    {
+      out << "  contact " << pair.name << ": force " << text_of(pair.force, forces) << force
+          << ", area " << pair.contact_area << units.after_number("length^2")
+          << ", largest nodal pressure " << pair.max_pressure
+          << units.after_number("force/length^2") << " at " << text_of(pair.peak, 0.) << length
+          << ", " << pair.active_contacts << " of " << pair.rows << " nodes in contact\n";
+      details << "    moment " << moment_text<dim>(pair.moment, moments) << moment << " about "
+              << text_of(pair.centre, 0.) << length << ", face size at the peak " << pair.peak_size
+              << length << '\n';
+    }
+  for (const auto &reaction : state.reactions)
+    out << "  support " << reaction.name << ": force " << text_of(reaction.force, forces) << force
+        << ", moment " << moment_text<dim>(reaction.moment, moments) << moment << " about "
+        << text_of(reaction.centre, 0.) << length << '\n';
+  details << "sum of loads " << text_of(state.load, 0.) << force
+          << ", with reactions and obstacle forces " << text_of(state.balance, 0.) << force << '\n';
+}
+} // namespace
+
+template <int dim>
+void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state)
+{
+  auto             &context = problem.context;
+  const Units       units(problem.scene.units);
+  const std::string energy = units.after_number("force length"),
+                    length = units.after_number("length");
+  const auto moved         = largest_displacement(state, context.communicator());
+  auto      &out           = context.out(Verbosity::quiet);
+  if (problem.n_load_cases() > 1)
+    out << "load case " << problem.scene.load_cases[state.load_case].name << ":\n";
+  out << "contact force " << text_of(state.contact_force, largest_forces(state).first)
+      << units.after_number("force") << ", contact area " << state.contact_area
+      << units.after_number("length^2") << ", largest nodal pressure " << state.max_pressure
+      << units.after_number("force/length^2") << '\n';
+  if (state.has_friction())
+    out << "friction: " << state.slipping_contacts << " of "
+        << counted(state.active_contacts, "node") << " in contact slip, dissipation "
+        << state.dissipation << energy << '\n';
+  out << "largest displacement " << moved.size << length << ": "
+      << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, 0.) << length
+      << "\nwork of loads " << state.compliance << energy << ", strain energy "
+      << state.strain_energy << energy << ", potential energy " << state.energy << energy
+      << std::endl;
+  print_forces(context, units, state);
+  print_certificate(context, state);
+  context.out(Verbosity::debug) << "nodes in contact: " << state.active_contacts << " of "
+                                << state.contact.size() << ", " << state.weak_contacts
+                                << " weakly active, strict complementarity margin "
+                                << state.degeneracy_distance
+                                << "\nminimum scaled Jacobian: " << state.least_scaled_jacobian
+                                << '\n'
+                                << state.dual.method << ": "
+                                << counted(state.dual.outer_iterations, "outer iteration") << ", "
+                                << counted(state.f_mults, "F-mult") << std::endl;
+}
+
+template void print_state(const ShapeProblem<2> &, const state::ContactState<2> &);
+template void print_state(const ShapeProblem<3> &, const state::ContactState<3> &);
+} // namespace snug::app
