@@ -119,7 +119,8 @@ std::string named(const std::string                         &mesh,
   std::ostringstream names;
   names << "$PhysicalNames\n" << of_group.size() + 1 << '\n';
   for (const auto &[group, face] : of_group)
-    names << dim - 1 << ' ' << group << " \"" << boundaries[face] << "\"\n";
+    names << dim - 1 << ' ' << group.substr(mesh_file::unnamed_group.size()) << " \""
+          << boundaries[face] << "\"\n";
   names << dim << " 1 \"body\"\n$EndPhysicalNames\n";
   const std::string end   = "$EndMeshFormat\n";
   const auto        place = mesh.find(end) + end.size();

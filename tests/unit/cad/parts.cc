@@ -3,6 +3,7 @@
 #include <snug/cad/import_cad.h>
 #include <snug/cad/part.h>
 #include <snug/mesh/body_mesh.h>
+#include <snug/mesh_file/mesh_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -157,6 +158,24 @@ TEST(Cad, meshes_are_reproducible)
   EXPECT_EQ(mesh->faces, imported(brep, 3)->faces);
   EXPECT_EQ(dealii::Utilities::MPI::sum(mesh->text_hash % 1000, MPI_COMM_WORLD),
             mesh->text_hash % 1000 * dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+}
+
+/// The mesh of Gmsh that is kept for the user has the names of the boundaries.
+TEST(Cad, kept_meshes_have_named_groups)
+{
+  auto pin      = part("pins.step", 1.);
+  pin.solid     = 1;
+  pin.cad_faces = {{"skin", "chain 4"}};
+  imported(pin, 3);
+  std::ifstream      in("cad-test-" +
+                        std::to_string(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) +
+                        "/kept_meshes_have_named_groups.msh");
+  std::ostringstream text;
+  text << in.rdbuf();
+  std::set<std::string> groups;
+  for (const auto &element : mesh_file::read_mesh_file(text.str()).elements)
+    groups.insert(element.groups.begin(), element.groups.end());
+  EXPECT_EQ(groups, (std::set<std::string>{"skin", "foot", "body"}));
 }
 
 /// A file of IGES has the faces of the shape, without a solid.
