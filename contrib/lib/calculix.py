@@ -19,18 +19,27 @@ def require_ccx():
     raise SystemExit("the program ccx is missing. On Debian 12: apt install calculix-ccx")
 
 
-def field(path, name):
-    """Return {node: components} of the last block called @p name, such as DISP or CONTACT."""
-    values, is_inside = {}, False
+def fields(path, name):
+    """Return {step: {node: components}} of the blocks called @p name, such as DISP or CONTACT, at
+    the end of each step."""
+    steps, step, is_inside = {}, 0, False
     for line in path.read_text().splitlines():
-        if line.startswith(" -4"):
+        if line.startswith("    1PSTEP"):
+            step = int(line.split()[3])  # behind the number of the block and the increment
+        elif line.startswith(" -4"):
             is_inside = line.split()[1] == name
             if is_inside:
-                values = {}
+                steps[step] = {}
         elif line.startswith(" -3"):
             is_inside = False
         elif is_inside and line.startswith(" -1"):
             # a mark of 3 characters, a node of 10 and numbers of 12
             numbers = [line[i:i + 12] for i in range(13, len(line.rstrip()), 12)]
-            values[int(line[3:13])] = [float(number) for number in numbers]
-    return values
+            steps[step][int(line[3:13])] = [float(number) for number in numbers]
+    return steps
+
+
+def field(path, name):
+    """Return {node: components} of the last block called @p name."""
+    steps = fields(path, name)
+    return steps[max(steps)] if steps else {}
