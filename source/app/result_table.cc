@@ -76,7 +76,8 @@ void print_result_table(const Search<dim>              &search,
   const bool        is_one    = search.problem.n_load_cases() == 1;
   rows.push_back(make_row(is_one ? objective : combined + " of " + objective, first.objective,
                           last.objective, scene::unit_after_number(scene, objective), "objective"));
-  for (const auto &constraint : search.objective.constraint_values(first.reported, last.reported))
+  const auto constraints = search.objective.constraint_values(first.reported, last.reported);
+  for (const auto &constraint : constraints)
     rows.push_back(make_row(constraint.name, constraint.initial, constraint.value, constraint.unit,
                             remark_of<dim>(constraint)));
   const auto names    = search.problem.value_names();
@@ -89,7 +90,12 @@ void print_result_table(const Search<dim>              &search,
       if (is_peak)
         rows.push_back(make_row(names[i].substr(0, dot) + "largest nodal pressure",
                                 first.reported[i], last.reported[i], pressure));
-      else if (!is_one || response != objective)
+      else if ((is_one && response == objective) ||
+               std::any_of(constraints.begin(), constraints.end(), [&](const auto &constraint) {
+                 return constraint.name.rfind(names[i] + ' ', 0) == 0;
+               }))
+        continue; // has a row already
+      else
         rows.push_back(make_row(names[i], first.reported[i], last.reported[i],
                                 scene::unit_after_number(scene, response)));
     }

@@ -33,13 +33,13 @@ std::string moment_text(const dealii::Tensor<1, 3> &moment, const double scale)
 template <int dim>
 struct LargestDisplacement
 {
-  double                 size = -1.;
+  double                 size = -1., extent = 0.; ///< extent: largest distance from the origin
   dealii::Tensor<1, dim> displacement, position;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive & size & displacement & position;
+    archive & size & extent & displacement & position;
   }
 };
 
@@ -48,12 +48,21 @@ LargestDisplacement<dim> largest_displacement(const state::ContactState<dim> &st
                                               MPI_Comm                        communicator)
 {
   LargestDisplacement<dim> result;
+  double                   extent = 0.;
   for (unsigned int node = 0; node < state.displacement.size(); ++node)
-    if (const double size = state.displacement[node].norm(); size > result.size)
-      result = {size, state.displacement[node], state.positions[node]};
+    {
+      extent = std::max(extent, state.positions[node].norm());
+      if (const double size = state.displacement[node].norm(); size > result.size)
+        result = {size, 0., state.displacement[node], state.positions[node]};
+    }
+  result.extent = extent;
   for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, result))
-    if (other.size > result.size)
-      result = other;
+    {
+      extent = std::max(extent, other.extent);
+      if (other.size > result.size)
+        result = other;
+    }
+  result.extent = extent;
   return result;
 }
 
@@ -63,7 +72,8 @@ std::pair<double, double> largest_forces(const state::ContactState<dim> &state)
 {
   std::pair<double, double> result = {state.load.norm(), 0.};
   for (const auto &pair : state.pairs)
-    result = {std::max(result.first, pair.force.norm()),
+    // Pressures around a shaft balance each other.
+    result = {std::max({result.first, pair.force.norm(), pair.contact_area * pair.max_pressure}),
               std::max(result.second, pair.moment.norm())};
   for (const auto &reaction : state.reactions)
     result = {std::max(result.first, reaction.force.norm()),
@@ -92,7 +102,10 @@ void print_certificate(RunContext &context, const state::ContactState<dim> &stat
 
 /// Print the forces of pairs and supports.
 template <int dim>
-void print_forces(RunContext &context, const Units &units, const state::ContactState<dim> &state)
+void print_forces(RunContext                     &context,
+                  const Units                    &units,
+                  const state::ContactState<dim> &state,
+                  const double                    extent)
 {
   const std::string length = units.after_number("length"), force = units.after_number("force"),
                     moment     = units.after_number("force length");
@@ -103,18 +116,19 @@ void print_forces(RunContext &context, const Units &units, const state::ContactS
       out << "  contact " << pair.name << ": force " << text_of(pair.force, forces) << force
           << ", area " << pair.contact_area << units.after_number("length^2")
           << ", largest nodal pressure " << pair.max_pressure
-          << units.after_number("force/length^2") << " at " << text_of(pair.peak, 0.) << length
+          << units.after_number("force/length^2") << " at " << text_of(pair.peak, extent) << length
           << ", " << pair.active_contacts << " of " << pair.rows << " nodes in contact\n";
       details << "    moment " << moment_text<dim>(pair.moment, moments) << moment << " about "
-              << text_of(pair.centre, 0.) << length << ", face size at the peak " << pair.peak_size
-              << length << '\n';
+              << text_of(pair.centre, extent) << length << ", face size at the peak "
+              << pair.peak_size << length << '\n';
     }
   for (const auto &reaction : state.reactions)
     out << "  support " << reaction.name << ": force " << text_of(reaction.force, forces) << force
         << ", moment " << moment_text<dim>(reaction.moment, moments) << moment << " about "
-        << text_of(reaction.centre, 0.) << length << '\n';
-  details << "sum of loads " << text_of(state.load, 0.) << force
-          << ", with reactions and obstacle forces " << text_of(state.balance, 0.) << force << '\n';
+        << text_of(reaction.centre, extent) << length << '\n';
+  details << "sum of loads " << text_of(state.load, forces) << force
+          << ", with reactions and obstacle forces " << text_of(state.balance, forces) << force
+          << '\n';
 }
 } // namespace
 
@@ -138,11 +152,11 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
         << counted(state.active_contacts, "node") << " in contact slip, dissipation "
         << state.dissipation << energy << '\n';
   out << "largest displacement " << moved.size << length << ": "
-      << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, 0.) << length
-      << "\nwork of loads " << state.compliance << energy << ", strain energy "
+      << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, moved.extent)
+      << length << "\nwork of loads " << state.compliance << energy << ", strain energy "
       << state.strain_energy << energy << ", potential energy " << state.energy << energy
       << std::endl;
-  print_forces(context, units, state);
+  print_forces(context, units, state, moved.extent);
   print_certificate(context, state);
   context.out(Verbosity::debug) << "nodes in contact: " << state.active_contacts << " of "
                                 << state.contact.size() << ", " << state.weak_contacts

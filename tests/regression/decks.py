@@ -130,7 +130,7 @@ WRONG = [
     ("*ELASTIC\n1000, .3", "*ELASTIC, TYPE=ORTHO\n1000, .3", ["has no isotropic *ELASTIC"]),
     ("*ELASTIC\n1000, .3", "*ELASTIC\n1000", ["a modulus and a ratio"]),
     ("*ELASTIC\n1000, .3", "*ELASTIC\n1000, 0.7", ["Poisson's ratio", "0.7"]),
-    ("*SOLID SECTION, ELSET=EALL", "*SOLID SECTION, ELSET=ELOW", ["have no material"]),
+    ("*SOLID SECTION, ELSET=EALL", "*SOLID SECTION, ELSET=ELOW", ["has no material"]),
     ("*SOLID SECTION, ELSET=EALL", "*SOLID SECTION, ELSET=EXX", ["'EXX'", "neither a set"]),
     ("NFIX,1,3", "NFIX", ["a set and its components"]),
     ("NFIX,1,3", "NXXX,1,3", ["NXXX"]),
@@ -142,7 +142,7 @@ WRONG = [
     ("*NODE FILE\nU", "*CLOAD\n999,3,1", ["line 92", "the node 999"]),
     ("*NODE FILE\nU", "*CLOAD\n118,z,1", ["line 92", "'z'"]),
     ("*NODE FILE\nU", "*CLOAD\n118,3,one", ["line 92", "'one' is not a number"]),
-    ("** two blocks", "two blocks", ["needs a deck"]),
+    ("** two blocks", "two blocks", ["or a deck"]),
     ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=C3D9", ["element type 'C3D9'"]),
     ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["more.inp"]),
     ("*NODE, NSET=NALL", "*INSTANCE, NAME=a, PART=b\n*NODE, NSET=NALL", ["has no *END"]),
@@ -268,7 +268,7 @@ def check_wrong_decks(runner, meshes):
         assert old in good, old
         path = runner.folder / f"wrong-{number}.inp"
         path.write_text(good.replace(old, new, 1))
-        arguments.append(["--translate" if "needs a deck" in words else "--validate", str(path)])
+        arguments.append(["--translate" if "or a deck" in words else "--validate", str(path)])
     for number, end in enumerate(run_many(arguments)):
         runner.require(f"wrong deck {number}", end.status == 2 and end.lines == 1 and all(
             word in end.message for word in [f"wrong-{number}.inp", *WRONG[number][2]]),

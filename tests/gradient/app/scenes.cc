@@ -90,12 +90,14 @@ scene::Scene coarse_scene(const Case &given)
   const auto sizes = coarse_elements.find(name);
   const auto ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
              rank  = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  auto scene       = scene::read_scene(
+  std::ostringstream log;
+  RunContext         self(MPI_COMM_SELF, log);
+  auto               scene = scene::read_scene(
     {given.file, contents(given.file),
      sizes == coarse_elements.end() ? std::vector<std::string>() : sizes->second,
-           // Each rank reads CAD files by itself, and gmsh writes files of its own.
-           "gradient.app.np" + std::to_string(ranks) + "/" + std::to_string(rank) + "/" + name,
-           contents});
+                   // Each rank reads CAD files by itself, and gmsh writes files of its own.
+                   "gradient.app.np" + std::to_string(ranks) + "/" + std::to_string(rank) + "/" + name, contents,
+                   &self});
   coarsen(scene);
   // those of degree 2 are slender: round-off does not let them reach 1e-11
   scene.state_tolerance = scene.degree == 1 ? 1e-11 : 1e-10;
