@@ -156,15 +156,16 @@ void report_result(Search<dim>                            &search,
   results.add_last(result.iterations, states, of_objective.shape, prior.errors);
   results.export_shape(result.x);
 
-  results.summary.gradient     = io::Summary::Gradient();
-  auto &gradient               = *results.summary.gradient;
-  gradient.method              = to_text(of_objective.method);
-  gradient.reason              = of_objective.reason;
-  gradient.differentiable      = of_objective.differentiable;
-  gradient.f_mults             = gradients.f_mults;
-  gradient.seconds             = gradients.seconds;
-  gradient.values              = result.evaluation.gradient;
-  results.summary.optimization = {{result}, to_text(result.algorithm)};
+  results.summary.gradient             = io::Summary::Gradient();
+  auto &gradient                       = *results.summary.gradient;
+  gradient.method                      = to_text(of_objective.method);
+  gradient.reason                      = of_objective.reason;
+  gradient.differentiable              = of_objective.differentiable;
+  gradient.f_mults                     = gradients.f_mults;
+  gradient.seconds                     = gradients.seconds;
+  gradient.values                      = result.evaluation.gradient;
+  results.summary.optimization         = {{result}, to_text(result.algorithm)};
+  results.summary.optimization->shapes = problem.shapes->by_shape(result.x);
   add_constraints(search, result);
   print_end(search, result);
   report_gain(search, result, states, prior);

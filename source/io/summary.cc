@@ -82,6 +82,9 @@ Json summary_part(const std::vector<Summary::Constraint> &constraints)
 
 Json summary_part(const Summary::Optimization &optimization)
 {
+  Json shapes = Json::object();
+  for (const auto &[name, variables] : optimization.shapes)
+    shapes[name] = variables;
   return {{"algorithm", optimization.algorithm},
           {"iterations", optimization.iterations},
           {"evaluations", optimization.evaluations},
@@ -94,7 +97,8 @@ Json summary_part(const Summary::Optimization &optimization)
           {"gain", summary_part(optimization.gain)},
           {"projected_gradient", optimization.projected_gradient},
           {"stop_reason", optimization.stop_reason},
-          {"design", optimization.x}};
+          {"design", optimization.x},
+          {"shapes", shapes}};
 }
 
 Json summary_part(const Summary::LoadCase &load_case)

@@ -125,7 +125,8 @@ std::string failure_reason(const OptimizationResult     &result,
   const bool is_feasible = result.constraint_violation <= parameters.constraint_tolerance;
   const bool is_cut_short =
     result.end == StopReason::interrupted || result.end == StopReason::evaluations;
-  if (result.success || (is_feasible && is_cut_short))
+  if (result.success ||
+      (is_cut_short && (is_feasible || result.constraint_violation <= usable_violation)))
     return "";
   std::ostringstream text;
   text << "the optimization has not converged: it stopped by " << result.stop_reason;

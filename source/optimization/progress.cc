@@ -51,8 +51,15 @@ bool Progress::has_gradients(const ScaledProblem::Point &point) const
     }
 }
 
+bool Progress::is_usable(const ScaledProblem::Point &point) const
+{
+  return point.violation <= std::max(parameters.constraint_tolerance, usable_violation);
+}
+
 void Progress::consider(const Point &point)
 {
+  if (is_usable(*point) && (!usable || point->evaluation.objective < usable->evaluation.objective))
+    usable = point;
   if (!is_better(*point, *best))
     return;
   best             = point;
@@ -131,6 +138,13 @@ OptimizationResult Progress::finish(const StopReason end, const std::string &fai
 {
   const bool by_tolerance =
     end == StopReason::gradient || end == StopReason::objective || end == StopReason::design;
+  const bool is_cut_short = end == StopReason::evaluations || end == StopReason::interrupted;
+  if (is_cut_short && usable && usable->evaluation.objective < best->evaluation.objective &&
+      has_gradients(*usable))
+    {
+      best             = usable;
+      best_is_accepted = best->x == last->x;
+    }
   const bool is_last = by_tolerance || !has_gradients(*best);
   if (!is_last && !best_is_accepted)
     accept(best, true);

@@ -5,6 +5,8 @@
 #include <snug/scene/check.h>
 #include <snug/scene/read_scene.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -204,6 +206,35 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
     }
 }
 
+/// Read the designs of other runs that are the initial ones of shapes.
+void read_initial_designs(const SceneSource &source, const Origins &origins, Scene &scene)
+{
+  for (auto &shape : scene.shapes)
+    {
+      if (shape.initial_from.empty())
+        continue;
+      const SectionCheck section(shape.section(), origins, scene.dimension);
+      const auto         file = shape.initial_from + "/summary.json";
+      try
+        {
+          section.require(bool(source.read_file), "Initial", shape.initial_from,
+                          "cannot be read here");
+          const auto designs = nlohmann::json::parse(source.read_file(file)).at("optimization");
+          shape.initial      = designs.at("shapes").at(shape.name).get<std::vector<double>>();
+        }
+      catch (const nlohmann::json::exception &)
+        {
+          throw section.error("Initial", shape.initial_from,
+                              "'" + file + "' has no design of an optimization for this shape");
+        }
+      catch (const InputError &error)
+        {
+          throw section.error("Initial", shape.initial_from, error.what());
+        }
+      shape.initial_from.clear();
+    }
+}
+
 /// Return whether the mesh of a mesh file or CAD file of the body has elements with triangles.
 bool has_triangles(const Body &body)
 {
@@ -264,6 +295,7 @@ Scene read_scene(const SceneSource &source)
   if (source.context != nullptr)
     source.context->set_verbosity(scene.output.verbosity);
   read_meshes(source, origins, scene);
+  read_initial_designs(source, origins, scene);
   if (scene.degree == 0)
     scene.degree = std::any_of(scene.bodies.begin(), scene.bodies.end(), has_triangles) ? 2 : 1;
   check(scene, origins);

@@ -4,9 +4,18 @@
 #include <snug/shape/shape_basis.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace snug::shape {
 namespace {
+/// Return whether the value of 'Initial' is a path, which begins with a letter, "/", "./" or "../".
+bool is_path(const std::string &text)
+{
+  const auto first = text.find_first_not_of('.');
+  return first != std::string::npos && (std::isalpha(static_cast<unsigned char>(text[0])) != 0 ||
+                                        text[0] == '_' || text[first] == '/');
+}
+
 void declare_places(Entries &entries, ShapeParameters &shape)
 {
   entries.add(
@@ -177,9 +186,18 @@ void ShapeParameters::declare(Entries &entries)
     "whole body.");
   entries.add("Bounds", bounds,
               "The minimum and the maximum of the design variables. Units: length.");
-  entries.add("Initial", initial,
-              "The initial values of the design variables, one for all or one for each. Units: "
-              "length. An empty list means 0.");
+  entries.add("Initial",
+              {[this]() { return initial_from.empty() ? to_text(initial) : initial_from; },
+               [this](const std::string &text) {
+                 initial.clear();
+                 initial_from = is_path(text) ? text : "";
+                 if (initial_from.empty())
+                   from_text(text, initial);
+               }},
+              allowed("numbers separated by commas or blanks, or the output directory of a run"),
+              "The initial values of the design variables, one for all or one for each, or the "
+              "output directory, relative to the working directory, of an optimization whose last "
+              "design is the initial one, on any mesh. Units: length. An empty list means 0.");
 }
 
 bool ShapeParameters::reads(const std::string &entry) const

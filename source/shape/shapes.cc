@@ -80,6 +80,20 @@ std::vector<double> Shapes<dim>::first_steps() const
 }
 
 template <int dim>
+std::vector<std::pair<std::string, std::vector<double>>>
+Shapes<dim>::by_shape(const std::vector<double> &alpha) const
+{
+  std::vector<std::pair<std::string, std::vector<double>>> result;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    {
+      const auto end = p + 1 < parts.size() ? parts[p + 1].first : alpha.size();
+      result.emplace_back(parts[p].name,
+                          std::vector<double>(alpha.begin() + parts[p].first, alpha.begin() + end));
+    }
+  return result;
+}
+
+template <int dim>
 void Shapes<dim>::add_variables(const ShapeParameters &parameters, const unsigned int n)
 {
   // A shape without variables needs no bounds.

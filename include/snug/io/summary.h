@@ -102,6 +102,8 @@ struct Summary
     /// values of the final design after a new contact search, if the contact is paired differently
     double                  objective_paired_anew = none, constraint_violation_paired_anew = none;
     std::vector<Constraint> constraints = {};
+    /// variables of the design by the name of their shape
+    std::vector<std::pair<std::string, std::vector<double>>> shapes = {};
   };
 
   /// A load case of a run with several load cases.

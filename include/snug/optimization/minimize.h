@@ -88,8 +88,14 @@ struct OptimizationResult
   bool success = false;
 };
 
+/// Violation of constraints, relative to their limits, up to which a design is a result if a search
+/// is cut short. Searches follow curved constraints, and their designs violate them by the square
+/// of a step.
+constexpr double usable_violation = 1e-5;
+
 /// Return why @p result is not usable. The text is empty if the search converged, or if it ran out
-/// of evaluations or was interrupted at a design that satisfies the constraints.
+/// of evaluations or was interrupted at a design that satisfies the constraints, up to
+/// usable_violation.
 std::string failure_reason(const OptimizationResult     &result,
                            const OptimizationParameters &parameters);
 

@@ -55,9 +55,11 @@ public:
 
   /// Return the result of a search that ended by @p end: the last design if a tolerance ended the
   /// search (an earlier design may have a lower objective only by a larger violation within the
-  /// tolerance of the constraints), otherwise the best design. A best design that was never
-  /// accepted, as when evaluations run out, is accepted now, so that the result is one of the
-  /// reported designs. @p failure is the message of the evaluation for StopReason::no_value.
+  /// tolerance of the constraints), otherwise the best design. If evaluations ran out, or the
+  /// search was interrupted, that is the usable design with the lowest objective, see
+  /// usable_violation. A best design that was never accepted, as when evaluations run out, is
+  /// accepted now, so that the result is one of the reported designs. @p failure is the message of
+  /// the evaluation for StopReason::no_value.
   OptimizationResult finish(StopReason end, const std::string &failure);
 
   /// Return whether a design satisfies the constraints to their tolerance.
@@ -71,6 +73,7 @@ public:
   bool is_better(const ScaledProblem::Point &a, const ScaledProblem::Point &b) const;
 
 private:
+  bool        is_usable(const ScaledProblem::Point &point) const;
   bool        has_gradients(const ScaledProblem::Point &point) const;
   std::string stop_reason(StopReason end, const std::string &failure) const;
 
@@ -81,6 +84,7 @@ private:
   Point                         best; ///< lowest feasible or least violating
   bool                          best_is_accepted = true;
   Point                         best_before;
+  Point                         usable; ///< lowest with a usable violation, or null
   unsigned int                  iterations = 0;
   bool                          was_close  = false;
 };

@@ -91,6 +91,8 @@ struct ShapeParameters
   double              reach    = 0.; ///< reach of the interior [length]; 0: the whole body
   std::vector<double> bounds;        ///< lower, upper
   std::vector<double> initial;       ///< one value, one per variable, or empty: 0
+  /// output directory of a run whose last design is the initial one; empty once it is read
+  std::string initial_from;
 
   /// Return the name of the subsection, "Shape" or "Shape NAME".
   std::string section() const { return name.empty() ? "Shape" : "Shape " + name; }

@@ -74,6 +74,10 @@ public:
    */
   std::vector<double> first_steps() const;
 
+  /// Return the variables of a design by the name of their shape.
+  std::vector<std::pair<std::string, std::vector<double>>>
+  by_shape(const std::vector<double> &alpha) const;
+
   /// Return the control points of a design, shape by shape.
   std::vector<MovedPoint<dim>> control_points(const std::vector<double> &alpha) const;
 

@@ -71,12 +71,41 @@ TEST(SqpFailures, OnlyResultsThatMeetTheConstraintsAreNoComplaint)
       {
         auto other                 = result;
         other.end                  = end;
-        other.constraint_violation = violation * parameters.constraint_tolerance;
+        other.constraint_violation = violation * usable_violation;
         const auto text            = failure_reason(other, parameters);
         EXPECT_EQ(text.empty(), violation < 1. && end != StopReason::round_off);
-        EXPECT_EQ(text.find("violates") != std::string::npos, violation > 1.);
+        EXPECT_EQ(text.find("violates") != std::string::npos, !text.empty() && violation > 0.);
       }
   EXPECT_EQ(failure_reason(minimize(rosenbrock_on_circle(), tight()), tight()), "");
+}
+
+/// A search along a curved constraint violates it by the square of its steps.
+TEST(SqpFailures, TheLowestDesignOnItsLimitsIsKeptWhenEvaluationsRunOut)
+{
+  auto       problem = rosenbrock_on_circle();
+  const auto start   = problem.evaluate(problem.start).objective;
+  double     lowest  = start;
+  problem.evaluate   = [&lowest, inner = problem.evaluate](const std::vector<double> &x) {
+    const auto value = inner(x);
+    if (std::abs(value.constraints[0]) <= usable_violation)
+      lowest = std::min(lowest, value.objective);
+    return value;
+  };
+  unsigned int n_lower = 0;
+  for (unsigned int n = 1; n < 25; ++n)
+    {
+      auto parameters                = tight();
+      parameters.maximum_evaluations = n;
+      lowest                         = start;
+      const auto result              = minimize(problem, parameters);
+      if (result.end != StopReason::evaluations || lowest == start)
+        continue;
+      ++n_lower;
+      EXPECT_LE(result.objective_final, lowest) << n;
+      EXPECT_LE(result.constraint_violation, usable_violation) << n;
+      EXPECT_EQ(failure_reason(result, parameters), "") << n;
+    }
+  EXPECT_GT(n_lower, 0u);
 }
 
 /// Wherever the evaluations run out, also within a line search.
