@@ -283,7 +283,7 @@ void print(const Cost &cost, const bool stages, std::ostream &out)
   };
   out << "estimate: " << counted_as(cost.counts.cells, "cell") << ", "
       << counted_as(cost.dimension * cost.counts.nodes, "unknown") << ", at most "
-      << counted_as(cost.counts.contact_rows, "contact constraint") << ", "
+      << counted_as(cost.counts.contact_rows, "contact condition") << ", "
       << counted_as(cost.counts.subdomains, "subdomain")
       << "\nestimate: " << whole(cost.memory_total) << " MB";
   if (cost.ranks > 1)

@@ -161,6 +161,7 @@ void Results<dim>::export_shape(const std::vector<double> &design)
   const auto               at_faces  = faces.gather(positions);
   const auto              &number_of = numbers_of_nodes();
   const auto               points    = problem->shapes->control_points(design);
+  const auto planes = state::symmetry_planes(*problem->mesh, problem->solver->model().supports);
   throw_collectively(problem->context.communicator(), [&]() {
     if (problem->context.rank() != 0)
       return;
@@ -173,7 +174,8 @@ void Results<dim>::export_shape(const std::vector<double> &design)
       return number_of[faces.global_node(node)] + 1;
     };
     io::write_text_file(path("profile.csv"),
-                        io::profile_text(faces, at_faces, problem->mesh->degree(), name, number));
+                        io::profile_text<dim>(faces, at_faces, problem->mesh->degree(),
+                                              {name, number, planes}));
     io::write_control_points(path("control-points.csv"), points);
   });
   export_profile(design);

@@ -64,7 +64,7 @@ void print_side(const ShapeProblem<dim> &problem, const contact::Side &side, std
     }
   out << names;
   if (height > 0.)
-    out << ", maximum distance of facets from the true surface " << height;
+    out << ", maximum chordal deviation of facets " << height;
 }
 
 /// Return the areas that the rows of each pair cover as parts of the areas of the slave sides.

@@ -57,7 +57,7 @@ void Results<dim>::print_header()
       << counted(problem->mesh->n_global_cells(), "cell") << ", "
       << counted(dim * problem->mesh->n_global_free_nodes(), "unknown") << ", "
       << counted(problem->tearing.n_global, "subdomain") << ", "
-      << counted(mesh_rows.contact, "contact constraint") << " of "
+      << counted(mesh_rows.contact, "contact condition") << " of "
       << counted(mesh_rows.all, "constraint") << ", "
       << counted(problem->shapes->n_variables(), "design variable") << ", "
       << counted(problem->context.n_ranks(), "MPI process", "MPI processes") << std::endl;

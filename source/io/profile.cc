@@ -3,6 +3,8 @@
 #include <snug/io/surface_pieces.h>
 #include <snug/io/text_file.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace snug::io {
@@ -12,11 +14,31 @@ namespace {
 /// that of a half circle is 2/pi.
 const double shortest_mean_normal = 0.1;
 
-/// Return the unit mean normal of a piece, or zero if its normals cancel.
+/// A node is on a plane of symmetry if its distance is below this part of the size of its piece.
+const double on_plane = 1e-6;
+
+/// Return whether a node of a piece lies on a plane.
 template <int dim>
-dealii::Tensor<1, dim> mean_normal(const mesh::Surface<dim>    &surface,
-                                   const SurfacePiece          &piece,
-                                   const faces::FaceShape<dim> &shape)
+bool meets(const mesh::Surface<dim>        &surface,
+           const SurfacePiece              &piece,
+           const state::SymmetryPlane<dim> &plane)
+{
+  const auto &x        = surface.reference_positions();
+  double      distance = std::numeric_limits<double>::infinity(), size = 0.;
+  for (const unsigned int node : piece.nodes)
+    {
+      distance = std::min(distance, std::abs((x[node] - plane.point) * plane.normal));
+      size     = std::max(size, (x[node] - x[piece.nodes.front()]).norm());
+    }
+  return plane.body == piece.body && distance <= on_plane * size;
+}
+
+/// Return the unit mean normal of a piece and of its mirror images, or zero if the normals cancel.
+template <int dim>
+dealii::Tensor<1, dim> mean_normal(const mesh::Surface<dim>                     &surface,
+                                   const SurfacePiece                           &piece,
+                                   const faces::FaceShape<dim>                  &shape,
+                                   const std::vector<state::SymmetryPlane<dim>> &planes)
 {
   dealii::Tensor<1, dim> sum;
   double                 lengths = 0.;
@@ -29,6 +51,9 @@ dealii::Tensor<1, dim> mean_normal(const mesh::Surface<dim>    &surface,
         sum += area;
         lengths += area.norm();
       }
+  for (const auto &plane : planes)
+    if (meets(surface, piece, plane))
+      sum -= (sum * plane.normal) * plane.normal;
   return sum.norm() < shortest_mean_normal * lengths ? dealii::Tensor<1, dim>() : sum / sum.norm();
 }
 
@@ -90,8 +115,7 @@ template <int dim>
 std::string profile_text(const mesh::Surface<dim>                 &surface,
                          const typename mesh::Surface<dim>::Field &positions,
                          const unsigned int                        degree,
-                         const FaceName                           &name,
-                         const NodeNumber                         &node_number)
+                         const ProfileModel<dim>                  &model)
 {
   const auto                 &reference = surface.reference_positions();
   const faces::FaceShape<dim> shape(degree);
@@ -105,7 +129,7 @@ std::string profile_text(const mesh::Surface<dim>                 &surface,
       const auto &piece = pieces[p];
       const auto  normals =
         faces::NodalNormals<dim>(surface, piece.faces, shape, reference).normals();
-      const auto   m             = mean_normal(surface, piece, shape);
+      const auto   m             = mean_normal(surface, piece, shape, model.planes);
       const double reference_top = highest(piece, m, reference), top = highest(piece, m, positions);
       double       arc_length = 0.;
       unsigned int previous   = piece.nodes.front();
@@ -114,8 +138,9 @@ std::string profile_text(const mesh::Surface<dim>                 &surface,
           const auto move = positions[node] - reference[node];
           arc_length += (reference[node] - reference[previous]).norm();
           previous = node;
-          text += name(piece.body, piece.boundary) + ',' + std::to_string(p) + ',' +
-                  std::to_string(node_number(node)) + (dim == 2 ? ',' + exact(arc_length) : "") +
+          text += model.name(piece.body, piece.boundary) + ',' + std::to_string(p) + ',' +
+                  std::to_string(model.node_number(node)) +
+                  (dim == 2 ? ',' + exact(arc_length) : "") +
                   columns<dim>(dealii::Tensor<1, dim>(reference[node])) +
                   columns<dim>(dealii::Tensor<1, dim>(positions[node])) +
                   columns<dim>(normals[node]) + ',' + exact(move * normals[node]) + ',';
@@ -131,11 +156,9 @@ std::string profile_text(const mesh::Surface<dim>                 &surface,
 template std::string profile_text(const mesh::Surface<2> &,
                                   const mesh::Surface<2>::Field &,
                                   unsigned int,
-                                  const FaceName &,
-                                  const NodeNumber &);
+                                  const ProfileModel<2> &);
 template std::string profile_text(const mesh::Surface<3> &,
                                   const mesh::Surface<3>::Field &,
                                   unsigned int,
-                                  const FaceName &,
-                                  const NodeNumber &);
+                                  const ProfileModel<3> &);
 } // namespace snug::io

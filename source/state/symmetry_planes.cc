@@ -114,6 +114,30 @@ std::string line(const std::string &side, const std::string &plane, const double
 } // namespace
 
 template <int dim>
+std::vector<SymmetryPlane<dim>> symmetry_planes(const mesh::BodyMesh<dim>                 &mesh,
+                                                const std::vector<supports::Support<dim>> &supports)
+{
+  const auto                      held = held_boundaries(supports);
+  std::vector<SymmetryPlane<dim>> planes;
+  for (const auto &[side, boundary] : held)
+    if (boundary.is_at_rest && boundary.components.size() == 1)
+      {
+        const mesh::Surface<dim> surface(mesh, {side});
+        if (const auto plane = plane_of(side, boundary, surface, mesh.degree()))
+          planes.push_back(
+            {plane->body, plane->normal,
+             dealii::Point<dim>(surface.reference_positions()[*plane->nodes.begin()])});
+      }
+  if (mesh.idealization().is_axisymmetric())
+    for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
+      {
+        planes.push_back({body, {}, {}});
+        planes.back().normal[0] = 1.;
+      }
+  return planes;
+}
+
+template <int dim>
 std::vector<std::string> symmetry_warnings(const mesh::BodyMesh<dim>                 &mesh,
                                            const std::vector<supports::Support<dim>> &supports,
                                            const std::vector<contact::Pair>          &pairs)
@@ -172,6 +196,8 @@ std::vector<std::string> symmetry_warnings(const mesh::BodyMesh<dim>            
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                      \
+  template std::vector<SymmetryPlane<dim>> symmetry_planes(                                        \
+    const mesh::BodyMesh<dim> &, const std::vector<supports::Support<dim>> &);                     \
   template std::vector<std::string> symmetry_warnings(const mesh::BodyMesh<dim> &,                 \
                                                       const std::vector<supports::Support<dim>> &, \
                                                       const std::vector<contact::Pair> &);

@@ -2,6 +2,7 @@
 #define snug_io_profile_h
 
 #include <snug/mesh/surface.h>
+#include <snug/state/symmetry_planes.h>
 
 #include <functional>
 #include <string>
@@ -12,6 +13,15 @@ using FaceName = std::function<std::string(unsigned int body, unsigned int bound
 
 /// Function that returns the number of a node of the surface in mesh files.
 using NodeNumber = std::function<unsigned int(unsigned int surface_node)>;
+
+/// The names and the planes of symmetry that a profile needs beside a surface.
+template <int dim>
+struct ProfileModel
+{
+  FaceName                               name;
+  NodeNumber                             node_number;
+  std::vector<state::SymmetryPlane<dim>> planes = {};
+};
 
 /**
  * Return the profile of shaped faces as CSV, for grinding and measuring. Each connected piece of a
@@ -28,8 +38,10 @@ using NodeNumber = std::function<unsigned int(unsigned int surface_node)>;
  * | normal_x, _y, _z       | unit outward normal n in the reference geometry                      |
  * | move                   | displacement from the reference geometry along n                     |
  * | reference_drop, drop   | max_j m.x_j - m.x along the mean normal m of the piece: the depth    |
- * |                        | below the highest point of the piece. Empty for pieces that surround |
- * |                        | the body or a bore, whose normals cancel.                            |
+ * |                        | below the highest point of the piece. The planes of symmetry that    |
+ * |                        | meet the piece contain m, as that of the whole face. Empty for       |
+ * |                        | pieces that, with their mirror images, surround the body or a bore,  |
+ * |                        | whose normals cancel.                                                |
  * | deviation              | maximum distance of the mesh faces at the node from the true surface |
  * |                        | of the design                                                        |
  *
@@ -40,8 +52,7 @@ template <int dim>
 std::string profile_text(const mesh::Surface<dim>                 &surface,
                          const typename mesh::Surface<dim>::Field &positions,
                          unsigned int                              degree,
-                         const FaceName                           &name,
-                         const NodeNumber                         &node_number);
+                         const ProfileModel<dim>                  &model);
 } // namespace snug::io
 
 #endif

@@ -47,7 +47,7 @@ TEST(Profile, RunsWithTheBodyOnItsLeft)
   auto                    positions = surface.gather(mesh.reference_positions());
   for (auto &x : positions)
     x[1] -= 0.1 * x[0] * x[0]; // highest at x = 0
-  const auto rows = read_profile(io::profile_text(surface, positions, 2, face_name, node_number));
+  const auto rows = read_profile(io::profile_text(surface, positions, 2, {face_name, node_number}));
   // cells of size 1/4, 1/4, 1/2 with two steps each
   ASSERT_EQ(rows.size(), 7u);
   EXPECT_EQ(number(rows.front(), "x"), 1.);
@@ -76,7 +76,7 @@ TEST(Profile, OppositeSidesAreTwoPieces)
   };
   const mesh::Surface<2> surface(mesh, {{1, index("bottom")}, {1, index("top")}});
   const auto             positions = surface.gather(mesh.reference_positions());
-  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name, node_number));
+  const auto rows = read_profile(io::profile_text(surface, positions, 1, {face_name, node_number}));
   ASSERT_FALSE(rows.empty());
   EXPECT_EQ(rows.front().at("piece"), "0");
   EXPECT_EQ(rows.back().at("piece"), "1");
@@ -99,7 +99,7 @@ TEST(Profile, ARingIsClosedAndHasNoDrop)
   auto                    positions = surface.gather(mesh.reference_positions());
   for (auto &x : positions)
     x *= 1.01;
-  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name, node_number));
+  const auto rows = read_profile(io::profile_text(surface, positions, 1, {face_name, node_number}));
   ASSERT_GT(rows.size(), 2u);
   EXPECT_EQ(rows.front().at("x"), rows.back().at("x"));
   EXPECT_EQ(rows.front().at("y"), rows.back().at("y"));
@@ -110,6 +110,29 @@ TEST(Profile, ARingIsClosedAndHasNoDrop)
     {
       EXPECT_NEAR(number(row, "move"), 0.02, 1e-12);
       EXPECT_EQ(row.at("drop"), "");
+    }
+}
+
+/// The half x > 0 of an arch, whose mean normal is that of the whole arch at a plane of symmetry.
+TEST(Profile, TheDropOfAHalfIsThatOfTheWhole)
+{
+  auto bodies    = test::two_boxes<2>(true);
+  bodies[1].warp = {"0", "-0.1*x^2"};
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, bodies, 1);
+  const mesh::Surface<2>  surface(mesh, {{1, geometry::boundary_index(mesh.geometry(1), "top")}});
+  const auto              positions = surface.gather(mesh.reference_positions());
+  dealii::Tensor<1, 2>    along_x;
+  along_x[0] = -1.;
+  for (const unsigned int body : {0, 1})
+    {
+      const std::vector<state::SymmetryPlane<2>> planes = {{body, along_x, {0., 1.}}};
+      const auto                                 rows =
+        read_profile(io::profile_text(surface, positions, 1, {face_name, node_number, planes}));
+      double largest = 0.;
+      for (const auto &row : rows)
+        largest =
+          std::max(largest, std::abs(number(row, "drop") - 0.1 * std::pow(number(row, "x"), 2)));
+      EXPECT_EQ(largest < 1e-12, body == 1) << largest;
     }
 }
 
@@ -124,7 +147,7 @@ TEST(Profile, TheDeviationIsThatOfTheChords)
   const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, {ring}, 1);
   const mesh::Surface<2>  surface(mesh, {{0, geometry::boundary_index(mesh.geometry(0), "outer")}});
   const auto              positions = surface.gather(mesh.reference_positions());
-  const auto rows = read_profile(io::profile_text(surface, positions, 1, face_name, node_number));
+  const auto rows = read_profile(io::profile_text(surface, positions, 1, {face_name, node_number}));
   ASSERT_GT(rows.size(), 2u);
   // The middle of a face is among the samples, because their degree is even.
   static_assert(mesh::surface_degree % 2 == 0);
@@ -144,7 +167,7 @@ TEST(Profile, SolidFacesHaveOneRowPerNode)
       for (auto &x : positions)
         x[0] += 0.1 * x[1]; // into the body, highest at y = 0
       const auto rows =
-        read_profile(io::profile_text(surface, positions, degree, face_name, node_number));
+        read_profile(io::profile_text(surface, positions, degree, {face_name, node_number}));
       EXPECT_EQ(rows.size(), surface.n_nodes());
       for (unsigned int node = 0; node < rows.size(); ++node)
         EXPECT_EQ(number(rows[node], "node"), 10. * node);
