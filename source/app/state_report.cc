@@ -143,10 +143,11 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
   auto      &out           = context.out(Verbosity::quiet);
   if (problem.n_load_cases() > 1)
     out << "load case " << problem.scene.load_cases[state.load_case].name << ":\n";
-  out << "contact force " << text_of(state.contact_force, largest_forces(state).first)
-      << units.after_number("force") << ", contact area " << state.contact_area
-      << units.after_number("length^2") << ", largest nodal pressure " << state.max_pressure
-      << units.after_number("force/length^2") << '\n';
+  if (!state.pairs.empty())
+    out << "contact force " << text_of(state.contact_force, largest_forces(state).first)
+        << units.after_number("force") << ", contact area " << state.contact_area
+        << units.after_number("length^2") << ", largest nodal pressure " << state.max_pressure
+        << units.after_number("force/length^2") << '\n';
   if (state.has_friction())
     out << "friction: " << state.slipping_contacts << " of "
         << counted(state.active_contacts, "node") << " in contact slip, dissipation "
