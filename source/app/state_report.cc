@@ -108,9 +108,12 @@ void print_forces(RunContext                     &context,
                   const double                    extent)
 {
   const std::string length = units.after_number("length"), force = units.after_number("force"),
-                    moment     = units.after_number("force length");
-  const auto [forces, moments] = largest_forces(state);
-  auto &out = context.out(), &details = context.out(Verbosity::debug);
+                    moment = units.after_number("force length");
+  const auto   largest     = largest_forces(state);
+  const double forces      = largest.first;
+  // Moments of forces at a distance cancel up to their round-off.
+  const double moments = std::max(largest.second, forces * extent);
+  auto        &out = context.out(), &details = context.out(Verbosity::debug);
   for (const auto &pair : state.pairs)
     {
       out << "  contact " << pair.name << ": force " << text_of(pair.force, forces) << force
@@ -151,7 +154,8 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
   if (state.has_friction())
     out << "friction: " << state.slipping_contacts << " of "
         << counted(state.active_contacts, "node") << " in contact slip, dissipation "
-        << state.dissipation << energy << '\n';
+        << (state.dissipation <= round_off * state.strain_energy ? 0. : state.dissipation) << energy
+        << '\n';
   out << "largest displacement " << moved.size << length << ": "
       << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, moved.extent)
       << length << "\nwork of loads " << state.compliance << energy << ", strain energy "
