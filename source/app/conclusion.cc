@@ -14,6 +14,31 @@ using optimization::OptimizationResult;
 /// contact search is said to matter.
 const double most_change = 1e-3, most_violation = 1e-6;
 
+/// Say that a search on pressures has left the contact as it was, because a pressure has no
+/// derivative with respect to nodes that are not in contact. The potential energy has.
+template <int dim>
+void report_same_contact(const Search<dim>                        &search,
+                         const typename ShapeProblem<dim>::States &states)
+{
+  const auto &scene    = search.problem.scene;
+  const auto &quantity = scene::response_called(scene, scene.optimization.objective)->quantity;
+  if (quantity.find("pressure") == std::string::npos || search.results.first().empty())
+    return;
+  std::size_t n = 0, n_rows = 0;
+  for (unsigned int c = 0; c < states.size(); ++c)
+    {
+      if (search.results.first()[c]["active_contacts"] != states[c].active_contacts)
+        return;
+      n += states[c].active_contacts;
+      n_rows += states[c].contact.size();
+    }
+  if (n < n_rows)
+    search.log(
+      "the contact has " + counted(n, "node") +
+      " as in the first design: a search with the objective potential energy may widen it, "
+      "and 'Shape/Initial' continues from its design");
+}
+
 template <int dim>
 void print_end(const Search<dim> &search, const OptimizationResult &result)
 {
@@ -168,6 +193,7 @@ void report_result(Search<dim>                            &search,
   results.summary.optimization->shapes = problem.shapes->by_shape(result.x);
   add_constraints(search, result);
   print_end(search, result);
+  report_same_contact(search, states);
   report_gain(search, result, states, prior);
   report_paired_anew(search, result, prior.is_paired);
   results.write_summary();

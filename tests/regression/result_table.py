@@ -23,6 +23,9 @@ RETREAT = ["Body upper/Pressure=", "Body upper/Displacement=top: y = -0.01",
            "Optimization/Objective=peak pressure", "Optimization/Maximum evaluations=2",
            "Task=optimize"]
 
+SAME = ["Optimization/Objective=peak pressure", "Optimization/Maximum evaluations=1",
+        "Task=optimize"]
+
 
 class Runner:
     def __init__(self, snug, scenes, folder):
@@ -115,6 +118,8 @@ def main(snug, scenes):
         check_initial(runner, *check_table(runner))
         log, _, _ = runner.run("retreat", "two-blocks-2d.prm", RETREAT)
         runner.require("retreat", "falls if the face retreats" in log, log)
+        log, _, _ = runner.run("same contact", "two-blocks-2d.prm", SAME)
+        runner.require("contact as it was", "nodes as in the first design" in log, log)
         check_load_cases(runner)
     return runner.wrong > 0
 
