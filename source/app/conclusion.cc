@@ -20,8 +20,9 @@ template <int dim>
 void report_same_contact(const Search<dim>                        &search,
                          const typename ShapeProblem<dim>::States &states)
 {
-  const auto &scene    = search.problem.scene;
-  const auto &quantity = scene::response_called(scene, scene.optimization.objective)->quantity;
+  const auto       &scene = search.problem.scene;
+  const std::string quantity =
+    scene::response_called(scene, scene.optimization.objective)->quantity;
   if (quantity.find("pressure") == std::string::npos || search.results.first().empty())
     return;
   std::size_t n = 0, n_rows = 0;
