@@ -32,7 +32,7 @@ public:
       if (++n_lines > 1)
         throw error_at_line(line, "'" + words[0] + "' is a further line of " + keyword.title);
     });
-    model.interactions.push_back({upper_case(keyword.option("NAME")), keyword.line});
+    model.interactions.push_back({upper_case(keyword.option("NAME"))});
   }
 
   /// Contact is hard, whatever the stiffness of the deck.

@@ -59,9 +59,9 @@ public:
         throw error_at_line(line, "there is no node set '" + words[0] + "'");
       const auto set        = key.empty() ? listed->second[0] : sets.boundary_of_nodes(key);
       const auto components = components_of(keyword, words, line);
-      if (!known.emplace(set, Words(words.begin() + 1, words.end())).second)
-        return;
       if (is_motion(keyword, words, line))
+        return;
+      if (!known.emplace(set, Words(words.begin() + 1, words.end())).second)
         return;
       const double given = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
       hold(keyword, set, components, {given * factor(keyword), line, reading.n_steps});
@@ -81,16 +81,16 @@ private:
     return amplitudes.at_end(keyword, reading.n_steps);
   }
 
-  /// Read a line of *BOUNDARY of reference nodes of rigid bodies. Return whether it is one.
+  /// Read a line of *BOUNDARY for the reference nodes of rigid bodies. Return whether it holds no
+  /// other nodes.
   bool is_motion(const Keyword &keyword, const Words &words, const unsigned long line)
   {
     if (references.empty())
       return false;
-    bool has_motion = false;
+    bool has_other_nodes = false;
     for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
       if (references.count(node) > 0)
         {
-          has_motion = true;
           // ENCASTRE and the like hold all components.
           const bool   is_number = words[1].find_first_not_of("0123456789") == std::string::npos;
           const auto   first     = is_number ? to_whole(words[1], line) : 1;
@@ -103,7 +103,9 @@ private:
             reading.current().motions[{node, c - 1}] = {value * factor(keyword), line,
                                                         reading.n_steps};
         }
-    return has_motion;
+      else
+        has_other_nodes = true;
+    return !has_other_nodes;
   }
 
   /// Return the components, from 0, of a line of *BOUNDARY that a model of solids has.

@@ -82,9 +82,8 @@ struct DeckModel
 
   struct Interaction
   {
-    std::string   name; ///< in upper case
-    unsigned long line;
-    double        friction = 0.;
+    std::string name; ///< in upper case
+    double      friction = 0.;
   };
 
   /// A rigid body: faces that belong to no cell, or an analytical surface, and its reference node.
@@ -110,15 +109,14 @@ struct DeckModel
   /// A contact of two sets of faces on one body each.
   struct Contact
   {
-    std::string   slave, master;
-    unsigned int  slave_body, master_body;
-    std::string   interaction; ///< in upper case, or ""
-    double        gap;         ///< added to that of the mesh [length]
-    unsigned long line;
-    /// general contact: any side may be the slave side
-    std::optional<unsigned int> obstacle   = {}; ///< master side, instead of a body
-    bool                        is_general = false;
-    double                      reach      = 0.; ///< [length]
+    std::string                 slave, master;
+    unsigned int                slave_body, master_body;
+    std::string                 interaction; ///< in upper case, or ""
+    double                      gap;         ///< added to that of the mesh [length]
+    unsigned long               line;
+    std::optional<unsigned int> obstacle   = {};    ///< master side, instead of a body
+    bool                        is_general = false; ///< any side may be the slave side
+    double                      reach      = 0.;    ///< of general contact [length]
   };
 
   std::vector<Material>                materials;
@@ -126,7 +124,7 @@ struct DeckModel
   std::map<unsigned int, std::string>  region_of;     ///< element -> set of its section
   std::map<std::string, unsigned long> section_lines; ///< material in upper case -> *SOLID SECTION
   Step                                 initial;       ///< before the first step
-  std::vector<Step>                    steps;         ///< static steps
+  std::vector<Step>                    steps;         ///< in the order of the deck
   std::map<unsigned int, double>       initial_temperatures; ///< by node
   std::vector<Spring>                  springs;
   std::vector<Interaction>             interactions;

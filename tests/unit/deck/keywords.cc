@@ -149,6 +149,12 @@ TEST(DeckKeywords, RigidSurfacesAreObstacles)
   EXPECT_EQ(scene.contact.pairs[0].master, "rigid-1");
   EXPECT_NE(translation.text.find("set Normal = 0 1"), std::string::npos) << translation.text;
   EXPECT_NE(translation.text.find("set Displacement = 0 0.3"), std::string::npos);
+  // A set of the reference node and of nodes of cells holds both.
+  const auto both = squares(ground + "*NSET, NSET=both\n1, 2, 3, 199\n", "*BOUNDARY\nboth, 1, 6\n");
+  const auto held = deck::translate(both, "deck.inp");
+  EXPECT_TRUE(held.lacking.empty());
+  EXPECT_EQ(scene_of(held, both).bodies[0].supports,
+            (std::map<std::string, std::string>{{"low", "xy"}}));
   // A rigid body that a force moves, or that turns, has no counterpart.
   EXPECT_TRUE(lists(deck::translate(squares(ground, "*BOUNDARY\n199, 1, 1\n"), "deck.inp"),
                     "*RIGID BODY that is not held in all components"));
