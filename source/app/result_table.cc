@@ -87,6 +87,8 @@ void print_result_table(const Search<dim>              &search,
       const auto dot      = names[i].rfind("max_pressure");
       const bool is_peak  = dot != std::string::npos && dot + 12 == names[i].size();
       const auto response = names[i].substr(is_one ? 0 : names[i].find('.') + 1);
+      if (is_peak && first.reported[i] == 0. && last.reported[i] == 0.)
+        continue; // a model without contact
       if (is_peak)
         rows.push_back(make_row(names[i].substr(0, dot) + "largest nodal pressure",
                                 first.reported[i], last.reported[i], pressure));

@@ -256,7 +256,7 @@ DeckModel read_model(const mesh_file::DeckText &text,
                      DeckBodies                &bodies,
                      Remarks                   &remarks)
 {
-  Reading         reading{text, deck, bodies, remarks};
+  Reading         reading{text, deck, bodies, remarks, Amplitudes(text), LocalAxes(text, deck)};
   KeywordReadings readings = material_readings(reading);
   readings.merge(support_readings(reading));
   readings.merge(load_readings(reading));

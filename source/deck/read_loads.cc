@@ -1,6 +1,4 @@
-#include <snug/deck/amplitudes.h>
 #include <snug/deck/keyword_reader.h>
-#include <snug/deck/local_axes.h>
 #include <snug/deck/step_items.h>
 
 #include <algorithm>
@@ -23,11 +21,7 @@ class LoadReader
 {
 public:
   explicit LoadReader(Reading &reading)
-    : reading(reading)
-    , sets(reading.deck.sets)
-    , dim(reading.bodies.dimension())
-    , amplitudes(reading.text)
-    , axes(reading.text, reading.deck)
+    : reading(reading), sets(reading.deck.sets), dim(reading.bodies.dimension())
   {}
 
   void begin_step(const Keyword &keyword)
@@ -99,14 +93,14 @@ public:
         throw error_at_line(line, "a node or set, a component and a force are expected");
       const auto   nodes     = sets.nodes(words[0], "", keyword.title, line);
       const auto   component = to_whole(words[1], line);
-      const double force     = to_number(words[2], line) * factor(keyword);
+      const double force     = to_number(words[2], line) * reading.factor(keyword);
       if (component < 1 || component > dim)
         return reading.lacks(keyword, " of component " + words[1], line);
       if (component == 1 && reading.model.model == "axisymmetric")
         return reading.lacks(keyword, " along the radius of an axisymmetric model", line);
       for (const unsigned int node : nodes)
         {
-          const auto direction = axes.direction(node, component - 1);
+          const auto direction = reading.axes.direction(node, component - 1);
           for (unsigned int c = 0; c < dim; ++c)
             if (direction[c] != 0.)
               {
@@ -130,7 +124,7 @@ public:
     reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (words.size() < 2)
         throw error_at_line(line, "a node or set and a temperature are expected");
-      const double value = to_number(words[1], line) * factor(keyword);
+      const double value = to_number(words[1], line) * reading.factor(keyword);
       for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
         if (is_initial)
           reading.model.initial_temperatures[node] = value;
@@ -143,18 +137,11 @@ private:
   Reading                   &reading;
   const mesh_file::DeckSets &sets;
   const unsigned int         dim;
-  const Amplitudes           amplitudes;
-  const LocalAxes            axes;
 
   void require_step(const Keyword &keyword) const
   {
     if (!reading.in_step)
       throw keyword_error(keyword, keyword.title + " must stand in a step");
-  }
-
-  double factor(const Keyword &keyword) const
-  {
-    return amplitudes.at_end(keyword, reading.n_steps);
   }
 
   /// Loads belong to a step. With OP = NEW those of earlier steps end, and *DLOAD and *DSLOAD are
@@ -180,7 +167,7 @@ private:
            const unsigned long               line)
   {
     for (auto &component : components)
-      component *= factor(keyword);
+      component *= reading.factor(keyword);
     const auto is_replaced = [&](const auto &load) {
       return load.step < reading.n_steps && reading.bodies.have_same_faces(load.set, set);
     };
@@ -198,7 +185,7 @@ private:
                                line,
                                reading.n_steps};
     for (auto &component : gravity.acceleration)
-      component *= factor(keyword);
+      component *= reading.factor(keyword);
     const auto &before = reading.current().gravities;
     if (std::any_of(before.begin(), before.end(), [&](const auto &other) {
           return other.step < reading.n_steps &&

@@ -1,6 +1,4 @@
-#include <snug/deck/amplitudes.h>
 #include <snug/deck/keyword_reader.h>
-#include <snug/deck/local_axes.h>
 #include <snug/deck/step_items.h>
 
 #include <algorithm>
@@ -35,8 +33,6 @@ public:
     : reading(reading)
     , sets(reading.deck.sets)
     , dim(reading.bodies.dimension())
-    , amplitudes(reading.text)
-    , axes(reading.text, reading.deck)
     , references(reference_nodes(reading))
   {}
 
@@ -64,7 +60,7 @@ public:
       if (!known.emplace(set, Words(words.begin() + 1, words.end())).second)
         return;
       const double given = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
-      hold(keyword, set, components, {given * factor(keyword), line, reading.n_steps});
+      hold(keyword, set, components, {given * reading.factor(keyword), line, reading.n_steps});
     });
   }
 
@@ -72,14 +68,7 @@ private:
   Reading                     &reading;
   const mesh_file::DeckSets   &sets;
   const unsigned int           dim;
-  const Amplitudes             amplitudes;
-  const LocalAxes              axes;
   const std::set<unsigned int> references; ///< reference nodes of rigid bodies
-
-  double factor(const Keyword &keyword) const
-  {
-    return amplitudes.at_end(keyword, reading.n_steps);
-  }
 
   /// Read a line of *BOUNDARY for the reference nodes of rigid bodies. Return whether it holds no
   /// other nodes.
@@ -100,7 +89,7 @@ private:
           const double value =
             words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
           for (auto c = std::max(1ul, first); c <= std::min(6ul, last); ++c)
-            reading.current().motions[{node, c - 1}] = {value * factor(keyword), line,
+            reading.current().motions[{node, c - 1}] = {value * reading.factor(keyword), line,
                                                         reading.n_steps};
         }
       else
@@ -156,7 +145,7 @@ private:
           return;
         const auto &of_set = reading.deck.mesh.optional_boundaries.at(set).nodes;
         for (const unsigned int c : components)
-          if (const auto axis = axes.axis(of_set, c); axis && axis->first < dim)
+          if (const auto axis = reading.axes.axis(of_set, c); axis && axis->first < dim)
             step.prescribed.push_back(
               {set, axis->first, axis->second * given.value, given.line, reading.n_steps});
           else if (given.value == 0. && components.size() == dim)
@@ -171,7 +160,7 @@ private:
       }
     for (const unsigned int node : nodes)
       for (const unsigned int c : components)
-        if (const auto axis = axes.axis({node}, c); axis && axis->first < dim)
+        if (const auto axis = reading.axes.axis({node}, c); axis && axis->first < dim)
           step.held_nodes[{node, axis->first}] = {axis->second * given.value, given.line,
                                                   reading.n_steps};
         else if (given.value == 0. && components.size() == dim)
@@ -212,8 +201,9 @@ private:
   bool is_normal(const std::string &set, const unsigned int component) const
   {
     const auto faces = reading.bodies.faces_of(set);
-    return std::all_of(faces.begin(), faces.end(),
-                       [&](const auto &corners) { return axes.is_normal(corners, component); });
+    return std::all_of(faces.begin(), faces.end(), [&](const auto &corners) {
+      return reading.axes.is_normal(corners, component);
+    });
   }
 };
 } // namespace

@@ -1,7 +1,9 @@
 #ifndef snug_deck_keyword_reader_h
 #define snug_deck_keyword_reader_h
 
+#include <snug/deck/amplitudes.h>
 #include <snug/deck/deck_model.h>
+#include <snug/deck/local_axes.h>
 
 #include <functional>
 
@@ -32,6 +34,8 @@ struct Reading
   const mesh_file::DeckMesh &deck;
   DeckBodies                &bodies;
   Remarks                   &remarks;
+  const Amplitudes           amplitudes;
+  const LocalAxes            axes;
   DeckModel                  model    = {};
   unsigned int               n_steps  = 0;
   bool                       in_step  = false;
@@ -39,6 +43,9 @@ struct Reading
 
   /// Return the supports and loads of the step that is read, or those before the first step.
   DeckModel::Step &current() { return n_steps == 0 ? model.initial : model.steps.back(); }
+
+  /// Return the factor of the loads of a keyword at the end of the step that is read.
+  double factor(const Keyword &keyword) const { return amplitudes.at_end(keyword, n_steps); }
 
   /// Note a part of the model that the translation lacks: "*CLOAD" + @p what.
   void lacks(const Keyword &keyword, const std::string &what, unsigned long line);
