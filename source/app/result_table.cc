@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 namespace snug::app {
 namespace {
+/// Names and units of values of every state in the table.
+const std::map<std::string, std::pair<std::string, std::string>> maxima = {
+  {"max_pressure", {"largest nodal pressure", "force/length^2"}},
+  {"max_von_mises", {"largest von Mises stress", "force/length^2"}},
+  {"max_displacement", {"largest displacement", "length"}}};
+
 /// A row of the table.
 struct Row
 {
@@ -80,26 +87,26 @@ void print_result_table(const Search<dim>              &search,
   for (const auto &constraint : constraints)
     rows.push_back(make_row(constraint.name, constraint.initial, constraint.value, constraint.unit,
                             remark_of<dim>(constraint)));
-  const auto names    = search.problem.value_names();
-  const auto pressure = Units(scene.units).after_number("force/length^2");
+  const auto  names = search.problem.value_names();
+  const Units units(scene.units);
   for (std::size_t i = 0; i < names.size(); ++i)
     {
-      const auto dot      = names[i].rfind("max_pressure");
-      const bool is_peak  = dot != std::string::npos && dot + 12 == names[i].size();
-      const auto response = names[i].substr(is_one ? 0 : names[i].find('.') + 1);
-      if (is_peak && first.reported[i] == 0. && last.reported[i] == 0.)
-        continue; // a model without contact
-      if (is_peak)
-        rows.push_back(make_row(names[i].substr(0, dot) + "largest nodal pressure",
-                                first.reported[i], last.reported[i], pressure));
-      else if ((is_one && response == objective) ||
-               std::any_of(constraints.begin(), constraints.end(), [&](const auto &constraint) {
+      const auto start  = is_one ? 0 : names[i].find('.') + 1;
+      const auto prefix = names[i].substr(0, start), response = names[i].substr(start);
+      const auto quantity = maxima.find(response);
+      const auto add      = [&](const std::string &name, const std::string &unit) {
+        rows.push_back(make_row(name, first.reported[i], last.reported[i], unit));
+      };
+      if (quantity != maxima.end())
+        {
+          if (first.reported[i] != 0. || last.reported[i] != 0.) // a model with contact
+            add(prefix + quantity->second.first, units.after_number(quantity->second.second));
+        }
+      else if ((!is_one || response != objective) &&
+               std::none_of(constraints.begin(), constraints.end(), [&](const auto &constraint) {
                  return constraint.name.rfind(names[i] + ' ', 0) == 0;
                }))
-        continue; // has a row already
-      else
-        rows.push_back(make_row(names[i], first.reported[i], last.reported[i],
-                                scene::unit_after_number(scene, response)));
+        add(names[i], scene::unit_after_number(scene, response));
     }
   print(search.problem.context.out(Verbosity::quiet), rows);
 }

@@ -89,7 +89,8 @@ std::vector<std::string> ShapeProblem<dim>::value_names() const
       for (const auto &response : scene.responses)
         if (response.name != scene.optimization.objective)
           names.push_back(prefix + response.name);
-      names.push_back(prefix + "max_pressure");
+      for (const char *name : {"max_pressure", "max_von_mises", "max_displacement"})
+        names.push_back(prefix + name);
     }
   return names;
 }
@@ -104,7 +105,8 @@ std::vector<double> ShapeProblem<dim>::reported_values(const States &states) con
       for (unsigned int i = 0; i < responses.size(); ++i)
         if (scene.responses[i].name != scene.optimization.objective)
           values.push_back(responses[i]->value(*solver, state));
-      values.push_back(state.max_pressure);
+      values.insert(values.end(), {state.max_pressure, state.stress_peak().von_mises,
+                                   state.displacement_peak.size});
     }
   return values;
 }

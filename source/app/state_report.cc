@@ -1,7 +1,5 @@
 #include <snug/app/state_report.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <sstream>
 
@@ -27,43 +25,6 @@ std::string moment_text(const dealii::Tensor<1, 3> &moment, const double scale)
   if (dim == 3)
     return text_of(moment, scale);
   return text_of(dealii::Tensor<1, 1>({moment[2]}), scale);
-}
-
-/// The displacement of the node that moves farthest, and its place.
-template <int dim>
-struct LargestDisplacement
-{
-  double                 size = -1., extent = 0.; ///< extent: largest distance from the origin
-  dealii::Tensor<1, dim> displacement, position;
-
-  template <class Archive>
-  void serialize(Archive &archive, const unsigned int)
-  {
-    archive & size & extent & displacement & position;
-  }
-};
-
-template <int dim>
-LargestDisplacement<dim> largest_displacement(const state::ContactState<dim> &state,
-                                              MPI_Comm                        communicator)
-{
-  LargestDisplacement<dim> result;
-  double                   extent = 0.;
-  for (unsigned int node = 0; node < state.displacement.size(); ++node)
-    {
-      extent = std::max(extent, state.positions[node].norm());
-      if (const double size = state.displacement[node].norm(); size > result.size)
-        result = {size, 0., state.displacement[node], state.positions[node]};
-    }
-  result.extent = extent;
-  for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, result))
-    {
-      extent = std::max(extent, other.extent);
-      if (other.size > result.size)
-        result = other;
-    }
-  result.extent = extent;
-  return result;
 }
 
 /// Return the largest force, and the largest moment, of a state.
@@ -98,6 +59,21 @@ void print_certificate(RunContext &context, const state::ContactState<dim> &stat
     out << ", cone " << errors.cone << ", creep " << errors.creep << ", dissipation "
         << errors.dissipation;
   out << std::endl;
+}
+
+/// Print the maximum von Mises stress, and those of all bodies as details.
+template <int dim>
+void print_stress(RunContext &context, const Units &units, const state::ContactState<dim> &state)
+{
+  const auto print = [&](std::ostream &out, const state::StressPeak<dim> &peak) {
+    out << "largest von Mises stress " << peak.von_mises << units.after_number("force/length^2")
+        << " at " << text_of(peak.place, state.displacement_peak.extent)
+        << units.after_number("length") << " in body " << peak.body << '\n';
+  };
+  print(context.out(Verbosity::quiet), state.stress_peak());
+  if (state.stress_peaks.size() > 1)
+    for (const auto &peak : state.stress_peaks)
+      print(context.out(Verbosity::debug) << "  ", peak);
 }
 
 /// Print the forces of pairs and supports.
@@ -142,8 +118,8 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
   const Units       units(problem.scene.units);
   const std::string energy = units.after_number("force length"),
                     length = units.after_number("length");
-  const auto moved         = largest_displacement(state, context.communicator());
-  auto      &out           = context.out(Verbosity::quiet);
+  const auto &moved        = state.displacement_peak;
+  auto       &out          = context.out(Verbosity::quiet);
   if (problem.n_load_cases() > 1)
     out << "load case " << problem.scene.load_cases[state.load_case].name << ":\n";
   if (!state.pairs.empty())
@@ -158,9 +134,10 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
         << '\n';
   out << "largest displacement " << moved.size << length << ": "
       << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, moved.extent)
-      << length << "\nwork of loads " << state.compliance << energy << ", strain energy "
-      << state.strain_energy << energy << ", potential energy " << state.energy << energy
-      << std::endl;
+      << length << '\n';
+  print_stress(context, units, state);
+  out << "work of loads " << state.compliance << energy << ", strain energy " << state.strain_energy
+      << energy << ", potential energy " << state.energy << energy << std::endl;
   print_forces(context, units, state, moved.extent);
   print_certificate(context, state);
   context.out(Verbosity::debug) << "nodes in contact: " << state.active_contacts << " of "

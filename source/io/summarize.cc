@@ -76,6 +76,12 @@ Summary::State summary_part(const state::PairState<dim> &pair)
 }
 
 template <int dim>
+Summary::State summary_part(const state::StressPeak<dim> &peak)
+{
+  return {{"body", peak.body}, {"value", peak.von_mises}, {"place", numbers(peak.place)}};
+}
+
+template <int dim>
 Summary::State summary_part(const state::Reaction<dim> &reaction)
 {
   return {{"name", reaction.name},
@@ -148,6 +154,9 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"contact_force", numbers(state.contact_force)},
           {"contact_area", state.contact_area},
           {"max_pressure", state.max_pressure},
+          {"max_von_mises", state.stress_peak().von_mises},
+          {"max_displacement", state.displacement_peak.size},
+          {"von_mises", array_of(state.stress_peaks)},
           {"active_contacts", state.active_contacts},
           {"weak_contacts", state.weak_contacts},
           {"degeneracy_distance", state.degeneracy_distance},

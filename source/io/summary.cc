@@ -116,7 +116,8 @@ Json main_values(const Summary::State &state)
   double worst = 0.;
   for (const auto &error : state.at("certificate"))
     worst = std::max(worst, error.get<double>());
-  for (const char *key : {"compliance", "contact_area", "max_pressure"})
+  for (const char *key :
+       {"compliance", "contact_area", "max_pressure", "max_von_mises", "max_displacement"})
     values[key] = state.at(key);
   values["worst_certificate"] = worst;
   values["responses"]         = state.at("responses");
@@ -236,8 +237,8 @@ void add_numbers(const Json &state, std::vector<std::string> &names, std::vector
     names.push_back(name);
     numbers.push_back(value.is_number() ? value.get<double>() : Summary::none);
   };
-  for (const char *key :
-       {"contact_area", "max_pressure", "active_contacts", "energy", "compliance", "strain_energy"})
+  for (const char *key : {"contact_area", "max_pressure", "max_von_mises", "max_displacement",
+                          "active_contacts", "energy", "compliance", "strain_energy"})
     add(key, state.at(key));
   for (std::size_t d = 0; d < state.at("contact_force").size(); ++d)
     add(std::string("contact_force_") + "xyz"[d], state.at("contact_force")[d]);

@@ -1,6 +1,7 @@
 #include <snug/state/contact_results.h>
 #include <snug/state/continuity.h>
 #include <snug/state/nodal_pressures.h>
+#include <snug/state/peaks.h>
 #include <snug/state/reactions.h>
 #include <snug/state/thermal.h>
 #include <snug/state/validity_checks.h>
@@ -312,8 +313,10 @@ void recover_contact_results(const StateSolver<dim>     &solver,
   describe_contact(solver, rows, state);
   sum_up_contact(solver.contact(state.load_case), rows, state);
   add_reactions(solver, rows, state);
-  state.validity    = check_validity(solver, rows.contact, state);
-  state.free_bodies = free_bodies(solver, state);
+  state.stress_peaks      = stress_peaks(solver, state);
+  state.displacement_peak = displacement_peak(state, solver.context().communicator());
+  state.validity          = check_validity(solver, rows.contact, state);
+  state.free_bodies       = free_bodies(solver, state);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                   \

@@ -140,6 +140,35 @@ struct PairState
   unsigned int           rows = 0, active_contacts = 0;
 };
 
+/// Maximum von Mises stress of a body, see stress_peaks().
+template <int dim>
+struct StressPeak
+{
+  std::string            body;
+  double                 von_mises = 0.; ///< [force / length^2]
+  dealii::Tensor<1, dim> place;          ///< in the undeformed body [length]
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive & body & von_mises & place;
+  }
+};
+
+/// The displacement of the node that moves farthest, and its position in the undeformed body.
+template <int dim>
+struct DisplacementPeak
+{
+  double size = 0., extent = 0.; ///< extent: maximum distance of a node from the origin [length]
+  dealii::Tensor<1, dim> displacement, position;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive & size & extent & displacement & position;
+  }
+};
+
 /**
  * Solution of the contact problem at one geometry. Fields are given on the local nodes (valid at
  * nodes of owned cells). Contact points are given on all ranks in the order of the contact rows.
@@ -164,9 +193,11 @@ struct ContactState
   std::vector<PairState<dim>> pairs;
   /// reactions of the supports on the bodies, about the means of their nodes; for sections of
   /// revolution, the force along the axis
-  std::vector<Reaction<dim>> reactions;
-  dealii::Tensor<1, dim>     load;    ///< sum of all loads [force]
-  dealii::Tensor<1, dim>     balance; ///< sum of loads, reactions and obstacle forces
+  std::vector<Reaction<dim>>   reactions;
+  dealii::Tensor<1, dim>       load;         ///< sum of all loads [force]
+  dealii::Tensor<1, dim>       balance;      ///< sum of loads, reactions and obstacle forces
+  std::vector<StressPeak<dim>> stress_peaks; ///< per body
+  DisplacementPeak<dim>        displacement_peak;
 
   double least_scaled_jacobian = 1.; ///< minimum over all cells
   /// @name Energies. Thermal strains enter the strain energy and are not among the loads f.
@@ -197,6 +228,16 @@ struct ContactState
   /// one line per body that supports and strong contacts leave free to move; the body is in
   /// equilibrium, but its position along these motions is not determined
   std::vector<std::string> free_bodies;
+
+  /// Return the maximum of the peaks of the bodies.
+  StressPeak<dim> stress_peak() const
+  {
+    StressPeak<dim> result;
+    for (const auto &peak : stress_peaks)
+      if (result.body.empty() || peak.von_mises > result.von_mises)
+        result = peak;
+    return result;
+  }
 
   /// Return whether a contact may carry friction forces.
   bool has_friction() const

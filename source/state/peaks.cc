@@ -1,0 +1,114 @@
+#include <snug/elasticity/stress.h>
+#include <snug/state/peaks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace snug::state {
+namespace {
+/// Relative difference of stresses below which their difference may be the error of the solver.
+const double tie = 1e-6;
+
+/// Return the place of @p x along a direction that no symmetry of a model is likely to reverse.
+template <int dim>
+double order(const dealii::Tensor<1, dim> &x)
+{
+  double result = x[0] + 0.71 * x[1];
+  return dim == 3 ? result + 0.43 * x[dim - 1] : result;
+}
+
+/// A Gauss point with its stress.
+template <int dim>
+struct StressPoint
+{
+  double                 von_mises;
+  dealii::Tensor<1, dim> place;
+};
+
+/// Return the Gauss points of the cells of this rank, per body.
+template <int dim>
+std::vector<std::vector<StressPoint<dim>>> stress_points(const StateSolver<dim>  &solver,
+                                                         const ContactState<dim> &state)
+{
+  const auto shapes = mesh::lagrange_gauss_points<dim>(solver.mesh().degree());
+  std::vector<std::vector<StressPoint<dim>>> result(solver.model().bodies.size());
+  for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
+    {
+      const auto &assembler = *solver.assemblers()[s];
+      auto       &of_body   = result[solver.tearing().subdomains[s].body];
+      for (unsigned int i = 0; i < assembler.cells().size(); ++i)
+        {
+          const auto X = assembler.cell_field(i, state.positions);
+          const auto stresses =
+            assembler.element().stresses(X, assembler.material(i),
+                                         assembler.cell_values(i, state.u[s].column(0)), shapes,
+                                         assembler.thermal_strain(i, state.load_case));
+          for (unsigned int q = 0; q < shapes.size(); ++q)
+            of_body.push_back(
+              {elasticity::von_mises(stresses[q]), elasticity::value<dim>(shapes[q], X)});
+        }
+    }
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::vector<StressPeak<dim>> stress_peaks(const StateSolver<dim>  &solver,
+                                          const ContactState<dim> &state)
+{
+  const MPI_Comm               communicator = solver.context().communicator();
+  const auto                   points       = stress_points(solver, state);
+  std::vector<double>          largest(points.size(), 0.);
+  std::vector<StressPeak<dim>> result(points.size());
+  for (unsigned int body = 0; body < points.size(); ++body)
+    for (const auto &point : points[body])
+      largest[body] = std::max(largest[body], point.von_mises);
+  dealii::Utilities::MPI::max(largest, communicator, largest);
+  // A peak without a body stands for a rank without such a point.
+  const auto take = [](StressPeak<dim> &peak, const StressPeak<dim> &other) {
+    if (peak.body.empty() ||
+        (!other.body.empty() && order<dim>(other.place) < order<dim>(peak.place)))
+      peak = other;
+  };
+  for (unsigned int body = 0; body < points.size(); ++body)
+    for (const auto &point : points[body])
+      if (point.von_mises >= (1. - tie) * largest[body])
+        take(result[body], {solver.model().body_names[body], largest[body], point.place});
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, result))
+    for (unsigned int body = 0; body < points.size(); ++body)
+      take(result[body], of_rank[body]);
+  return result;
+}
+
+template <int dim>
+DisplacementPeak<dim> displacement_peak(const ContactState<dim> &state, MPI_Comm communicator)
+{
+  DisplacementPeak<dim> result;
+  double                extent = 0.;
+  result.size                  = -1.; // of a rank without nodes
+  for (unsigned int node = 0; node < state.displacement.size(); ++node)
+    {
+      extent = std::max(extent, state.positions[node].norm());
+      if (const double size = state.displacement[node].norm(); size > result.size)
+        result = {size, 0., state.displacement[node], state.positions[node]};
+    }
+  result.extent = extent;
+  for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, result))
+    {
+      extent = std::max(extent, other.extent);
+      if (other.size > result.size)
+        result = other;
+    }
+  result.extent = extent;
+  return result;
+}
+
+#define SNUG_INSTANTIATE(dim)                                                    \
+  template std::vector<StressPeak<dim>> stress_peaks(const StateSolver<dim> &,   \
+                                                     const ContactState<dim> &); \
+  template DisplacementPeak<dim>        displacement_peak(const ContactState<dim> &, MPI_Comm);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
+} // namespace snug::state
