@@ -62,7 +62,7 @@ def largest(scene, entries, known):
     for _ in range(12):
         middle = (low + high) / 2
         done = run(scene, entries(middle))
-        if done.result is None and "escapes" not in done.message:
+        if done.result is None and "is not held" not in done.message:
             raise RunError(f"{scene}, {middle}: {done.message}")
         low, high = (middle, high) if done.result else (low, middle)
     return low

@@ -69,7 +69,8 @@ def read_blocks(path):
     try:
         for group in xml.etree.ElementTree.parse(existing(path)).getroot()[0]:
             for block in group:
-                files = [os.path.join(os.path.dirname(path), entry.get("file")) for entry in block]
+                files = [os.path.join(os.path.dirname(path), entry.get("file"))
+                         for entry in block.iter("DataSet") if entry.get("file")]
                 if files:
                     result[group.get("name")][block.get("name")] = joined(map(read_grid, files))
     except (xml.etree.ElementTree.ParseError, IndexError, KeyError, TypeError):

@@ -32,9 +32,12 @@ Analyses<dim>::gradients(const Design                              &design,
                          const sensitivity::GradientParameters     &parameters)
 {
   auto &analysis = at(design);
-  if (analysis.gradients.of_response.empty())
-    analysis.gradients =
-      sensitivity::gradients(problem.load_cases(analysis.states, design, parameters), measured);
+  if (analysis.gradients.of_response.empty() || !(analysis.measured == measured))
+    {
+      analysis.gradients =
+        sensitivity::gradients(problem.load_cases(analysis.states, design, parameters), measured);
+      analysis.measured = measured;
+    }
   // The solver may have been at another design since, for example at the first one.
   for (const auto &state : analysis.states)
     problem.solver->restore(state);

@@ -14,34 +14,10 @@ using optimization::OptimizationResult;
 /// contact search is said to matter.
 const double most_change = 1e-3, most_violation = 1e-6;
 
-/// Say that a search on pressures has left the contact as it was, because a pressure has no
-/// derivative with respect to nodes that are not in contact. The potential energy has.
 template <int dim>
-void report_same_contact(const Search<dim>                        &search,
-                         const typename ShapeProblem<dim>::States &states)
-{
-  const auto       &scene = search.problem.scene;
-  const std::string quantity =
-    scene::response_called(scene, scene.optimization.objective)->quantity;
-  if (quantity.find("pressure") == std::string::npos || search.results.first().empty())
-    return;
-  std::size_t n = 0, n_rows = 0;
-  for (unsigned int c = 0; c < states.size(); ++c)
-    {
-      if (search.results.first()[c]["active_contacts"] != states[c].active_contacts)
-        return;
-      n += states[c].active_contacts;
-      n_rows += states[c].contact.size();
-    }
-  if (n < n_rows)
-    search.log(
-      "the contact has " + counted(n, "node") +
-      " as in the first design: a search with the objective potential energy may widen it, "
-      "and 'Shape/Initial' continues from its design");
-}
-
-template <int dim>
-void print_end(const Search<dim> &search, const OptimizationResult &result)
+void print_end(const Search<dim>                        &search,
+               const OptimizationResult                 &result,
+               const typename ShapeProblem<dim>::States &states)
 {
   search.problem.context.out(Verbosity::quiet)
     << (result.success ? "converged: " : "stopped: ") << result.stop_reason << " after "
@@ -49,7 +25,7 @@ void print_end(const Search<dim> &search, const OptimizationResult &result)
     << counted(result.evaluations, "evaluation") << std::endl;
   auto first      = search.record.first;
   first.objective = result.objective_initial;
-  print_result_table(search, first, result.evaluation);
+  print_result_table(search, first, result.evaluation, states);
 }
 
 /// Return the values of the design found after a new contact search, or nothing if the states are
@@ -88,11 +64,14 @@ void report_paired_anew(Search<dim> &search, const OptimizationResult &result, c
   const auto values = values_paired_anew(search, result, is_paired);
   if (!values)
     return;
-  const auto &scene                        = search.problem.scene;
-  auto       &summary                      = *search.results.summary.optimization;
-  summary.objective_paired_anew            = values->objective;
-  summary.constraint_violation_paired_anew = values->violation;
-  const double       change                = std::abs(values->objective - result.objective_final);
+  const auto &scene                                 = search.problem.scene;
+  auto       &summary                               = *search.results.summary.optimization;
+  summary.objective_after_contact_update            = values->objective;
+  summary.constraint_violation_after_contact_update = values->violation;
+  const double change = std::abs(values->objective - result.objective_final);
+  if (change <= most_change * std::abs(result.objective_final))
+    search.log("a new contact search at the final design changes the objective by less than " +
+               to_text(100. * most_change) + " %");
   std::ostringstream line;
   line << "after a new contact search, the final design has " << scene.optimization.objective << ' '
        << values->objective << " instead of " << result.objective_final
@@ -105,8 +84,6 @@ void report_paired_anew(Search<dim> &search, const OptimizationResult &result, c
   if (breaks || change > most_change * std::abs(result.objective_final))
     search.problem.context.warn(
       {"pairing drift", line.str() + "; 'Contact/Update pairing' can continue from there"});
-  else
-    search.log(line.str());
 }
 
 /// Report the gain of the objective where its error is estimated. A gain below the error may be
@@ -147,6 +124,17 @@ void report_gain(Search<dim>                              &search,
        "mesh; set a smaller error in 'Accuracy/Target'",
        gain.initial - gain.final, error});
 }
+/// Print the warnings of the run once more, because those from before a search are far above.
+void repeat_warnings(RunContext &context)
+{
+  auto &out = context.out(Verbosity::quiet);
+  if (!context.warnings().empty())
+    out << "warnings of this run:\n";
+  for (const auto &warning : context.warnings())
+    out << "  " << warning.text << '\n';
+  out << std::flush;
+}
+
 /// Add the constraints and their values to the summary.
 template <int dim>
 void add_constraints(Search<dim> &search, const OptimizationResult &result)
@@ -171,7 +159,7 @@ void report_result(Search<dim>                            &search,
   auto &problem = search.problem;
   auto &results = search.results;
   search.finish_first();
-  search.warn_of_weak_contacts(result.x);
+  search.warn_of_weak_contacts(search.objective, result.x);
   const auto &gradients    = search.objective.gradients(result.x);
   const auto &of_objective = gradients.of_response.front();
   auto       &states       = search.analyses.at(result.x).states;
@@ -193,10 +181,10 @@ void report_result(Search<dim>                            &search,
   results.summary.optimization         = {{result}, to_text(result.algorithm)};
   results.summary.optimization->shapes = problem.shapes->by_shape(result.x);
   add_constraints(search, result);
-  print_end(search, result);
-  report_same_contact(search, states);
+  print_end(search, result, states);
   report_gain(search, result, states, prior);
   report_paired_anew(search, result, prior.is_paired);
+  repeat_warnings(problem.context);
   results.write_summary();
 }
 

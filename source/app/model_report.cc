@@ -161,9 +161,15 @@ void print_pairs_at(const ShapeProblem<dim> &problem,
       if (pairs[p].obstacle)
         out << "obstacle";
       else
-        out << to_text(*pairs[p].parameters.method) << ", " << matching.n_matching << " of "
-            << counted(matching.n_nodes, "slave node") << " match a master node";
-      out << ", " << counted(rows[p], "constraint") << ", initial gap "
+        {
+          out << to_text(*pairs[p].parameters.method) << ", ";
+          if (matching.complete())
+            out << "matching meshes";
+          else
+            out << "non-matching meshes (" << matching.n_matching << " of "
+                << counted(matching.n_nodes, "slave node") << " on a master node)";
+        }
+      out << ", " << counted(rows[p], "contact condition") << ", initial gap "
           << contact.paired_gaps()[p].least << " to " << contact.paired_gaps()[p].largest << ", "
           << std::round(100. * std::min(1., shares[p]))
           << " % of the slave side faces the other side"

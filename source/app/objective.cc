@@ -29,6 +29,26 @@ Objective<dim>::Objective(const ShapeProblem<dim> &problem,
 }
 
 template <int dim>
+Objective<dim>
+Objective<dim>::with_objective(std::shared_ptr<const response::Response<dim>> response) const
+{
+  Objective result = *this;
+  for (std::size_t i = 0; i < quantities.front().load_cases.size(); ++i)
+    result.measured[i].response = response.get();
+  result.quantities.front().response = std::move(response);
+  result.differentiated.clear();
+  return result;
+}
+
+template <int dim>
+bool Objective<dim>::limits_geometry() const
+{
+  return std::any_of(quantities.begin() + 1, quantities.end(), [](const Quantity &constraint) {
+    return !constraint.response->needs_solution();
+  });
+}
+
+template <int dim>
 void Objective<dim>::add_quantity(Quantity quantity)
 {
   if (quantity.load_cases.size() == 1 && quantity.combination.n_maxima() == 1)
@@ -287,7 +307,7 @@ optimization::DesignProblem Objective<dim>::design_problem(const Design &start)
     result.predict = [this](const optimization::Evaluation &at, const std::vector<double> &dx) {
       return predicted(at, dx);
     };
-  result.predicts_objective = is_predicted() && measures_contact(*problem.objective);
+  result.predicts_objective = is_predicted() && measures_contact(response());
   for (unsigned int i = 1; i < quantities.size(); ++i)
     {
       result.constraint_scales.push_back(std::abs(quantities[i].target));

@@ -1,4 +1,5 @@
 #include <snug/app/result_table.h>
+#include <snug/app/state_report.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -12,6 +13,9 @@ const std::map<std::string, std::pair<std::string, std::string>> maxima = {
   {"max_pressure", {"largest nodal pressure", "force/length^2"}},
   {"max_von_mises", {"largest von Mises stress", "force/length^2"}},
   {"max_displacement", {"largest displacement", "length"}}};
+
+/// Forces of at most so many load cases are printed; `load_cases.csv` has those of all.
+const unsigned int most_forces = 3;
 
 /// A row of the table.
 struct Row
@@ -48,6 +52,23 @@ std::string remark_of(const typename Objective<dim>::ConstraintValue &constraint
   return remark;
 }
 
+/// Return where a state has the value that is called as in `maxima`.
+template <int dim>
+std::string place_of(const ShapeProblem<dim>        &problem,
+                     const state::ContactState<dim> &state,
+                     const std::string              &name)
+{
+  const double extent = state.displacement_peak.extent;
+  if (name == "max_von_mises")
+    return "at " + vector_text(state.stress_peak().place, extent);
+  if (name == "max_displacement")
+    return "at " + vector_text(state.displacement_peak.position, extent);
+  for (const auto &pair : state.pairs)
+    if (pair.max_pressure == state.max_pressure)
+      return "at " + vector_text(pair.peak, extent) + edge_remark(problem, state, pair);
+  return "";
+}
+
 void print(std::ostream &out, const std::vector<Row> &rows)
 {
   std::size_t name = 0, first = 0, last = 0;
@@ -72,9 +93,10 @@ void print(std::ostream &out, const std::vector<Row> &rows)
 } // namespace
 
 template <int dim>
-void print_result_table(const Search<dim>              &search,
-                        const optimization::Evaluation &first,
-                        const optimization::Evaluation &last)
+void print_result_table(const Search<dim>                        &search,
+                        const optimization::Evaluation           &first,
+                        const optimization::Evaluation           &last,
+                        const typename ShapeProblem<dim>::States &states)
 {
   const auto       &scene     = search.problem.scene;
   const auto       &objective = scene.optimization.objective;
@@ -97,10 +119,13 @@ void print_result_table(const Search<dim>              &search,
       const auto add      = [&](const std::string &name, const std::string &unit) {
         rows.push_back(make_row(name, first.reported[i], last.reported[i], unit));
       };
+      const auto &state = states[i * states.size() / names.size()];
+      if (quantity != maxima.end() && first.reported[i] == 0. && last.reported[i] == 0.)
+        continue; // a model without contact
       if (quantity != maxima.end())
         {
-          if (first.reported[i] != 0. || last.reported[i] != 0.) // a model with contact
-            add(prefix + quantity->second.first, units.after_number(quantity->second.second));
+          add(prefix + quantity->second.first, units.after_number(quantity->second.second));
+          rows.back().remark = place_of(search.problem, state, response);
         }
       else if ((!is_one || response != objective) &&
                std::none_of(constraints.begin(), constraints.end(), [&](const auto &constraint) {
@@ -109,12 +134,21 @@ void print_result_table(const Search<dim>              &search,
         add(names[i], scene::unit_after_number(scene, response));
     }
   print(search.problem.context.out(Verbosity::quiet), rows);
+  auto &out = search.problem.context.out();
+  for (const auto &state : states)
+    if (states.size() <= most_forces)
+      {
+        out << "forces of the last design"
+            << (is_one ? "" : " in load case " + scene.load_cases[state.load_case].name) << ":\n";
+        print_forces(search.problem, state);
+      }
 }
 
-template void print_result_table(const Search<2> &,
-                                 const optimization::Evaluation &,
-                                 const optimization::Evaluation &);
-template void print_result_table(const Search<3> &,
-                                 const optimization::Evaluation &,
-                                 const optimization::Evaluation &);
+#define SNUG_INSTANTIATE(dim)                                                             \
+  template void print_result_table(const Search<dim> &, const optimization::Evaluation &, \
+                                   const optimization::Evaluation &,                      \
+                                   const ShapeProblem<dim>::States &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::app

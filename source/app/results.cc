@@ -57,8 +57,8 @@ void Results<dim>::print_header()
       << counted(problem->mesh->n_global_cells(), "cell") << ", "
       << counted(dim * problem->mesh->n_global_free_nodes(), "unknown") << ", "
       << counted(problem->tearing.n_global, "subdomain") << ", "
-      << counted(mesh_rows.contact, "contact condition") << " of "
-      << counted(mesh_rows.all, "constraint") << ", "
+      << counted(mesh_rows.contact, "contact condition") << ", "
+      << counted(mesh_rows.all, "constraint") << " in all, "
       << counted(problem->shapes->n_variables(), "design variable") << ", "
       << counted(problem->context.n_ranks(), "MPI process", "MPI processes") << std::endl;
   print_notes(problem->scene, out);
@@ -270,9 +270,9 @@ void Results<dim>::count_rows()
 {
   summary.mesh                  = io::summarize(*problem->mesh, problem->tearing);
   const auto rows               = counted_rows();
-  summary.mesh.dual_rows        = rows.all;
+  summary.mesh.constraints      = rows.all;
   summary.mesh.contact_rows     = rows.contact;
-  summary.mesh.kernel_dimension = problem->solver->n_kernel();
+  summary.mesh.rigid_body_modes = problem->solver->n_kernel();
 }
 
 template <int dim>

@@ -81,9 +81,9 @@ Search<dim>::Search(ShapeProblem<dim> &problem, SearchRecord<dim> &record, const
 {}
 
 template <int dim>
-void Search<dim>::warn_of_weak_contacts(const Design &design)
+void Search<dim>::warn_of_weak_contacts(Objective<dim> &searched, const Design &design)
 {
-  for (const auto &gradient : objective.gradients(design).of_response)
+  for (const auto &gradient : searched.gradients(design).of_response)
     if (!gradient.differentiable)
       results.warn_of_weak_contacts(analyses.at(design).states,
                                     "; continuing with those of the strongly active contacts");
@@ -180,12 +180,14 @@ void Search<dim>::report_first(const Iteration &iteration)
 template <int dim>
 void Search<dim>::report(const Iteration &iteration, const OptimizationResult &before)
 {
+  if (iteration.number == 0)
+    first_contacts = iteration.evaluation.active_contacts;
   if (before.iterations + iteration.number == 0)
     report_first(iteration);
   io::HistoryLine line;
   line.iteration            = before.iterations + iteration.number;
   line.evaluations          = before.evaluations + iteration.evaluations;
-  line.objective            = iteration.evaluation.objective;
+  line.objective            = scene_objective(iteration.evaluation);
   line.constraint_violation = iteration.constraint_violation;
   line.projected_gradient   = iteration.projected_gradient;
   line.active_contacts      = iteration.evaluation.active_contacts;
@@ -221,25 +223,26 @@ void Search<dim>::finish_first()
 
 /// Return the problem that the optimizer sees. Each step wraps the one before it.
 template <int dim>
-optimization::DesignProblem Search<dim>::decorated_problem(const Design &start)
+optimization::DesignProblem Search<dim>::decorated_problem(Objective<dim> &searched,
+                                                           const Design   &start)
 {
-  auto result = objective.design_problem(start);
+  auto result = searched.design_problem(start);
   // An interrupted search continues to the end of its evaluation, and needs the gradient of its
   // best design.
   result.evaluate = [this, evaluate = result.evaluate](const Design &x) {
     check_interrupts(problem.context.communicator());
     problem.context.progress(record.progress.text());
     auto evaluation = evaluate(x);
-    record.progress.end(evaluation.objective, objective.most_violated(evaluation.reported).first,
-                        evaluation.seconds);
+    record.progress.end(scene_objective(evaluation),
+                        objective.most_violated(evaluation.reported).first, evaluation.seconds);
     return evaluation;
   };
-  result.differentiate = [this, differentiate =
-                                  result.differentiate](const Design             &x,
-                                                        optimization::Evaluation &evaluation) {
-    differentiate(x, evaluation);
-    warn_of_weak_contacts(x);
-  };
+  result.differentiate =
+    [this, &searched, differentiate = result.differentiate](const Design             &x,
+                                                            optimization::Evaluation &evaluation) {
+      differentiate(x, evaluation);
+      warn_of_weak_contacts(searched, x);
+    };
   std::vector<optimization::LinearLimit> limits;
   for (const auto &limit : problem.shapes->limits())
     limits.push_back({limit.row, limit.bound});
@@ -252,23 +255,41 @@ optimization::DesignProblem Search<dim>::decorated_problem(const Design &start)
   return result;
 }
 
+/// Return the objective of the scene for values of a search that may have another objective.
+template <int dim>
+double Search<dim>::scene_objective(const optimization::Evaluation &evaluation) const
+{
+  const std::size_t   n_values = problem.value_names().size() / problem.n_load_cases();
+  std::vector<double> values, weights;
+  for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+    {
+      values.push_back(evaluation.reported[c * n_values]);
+      weights.push_back(problem.weight(c));
+    }
+  return optimization::combined(problem.scene.optimization.combine, values, weights).value;
+}
+
 /// Minimize without a new contact search.
 template <int dim>
-OptimizationResult Search<dim>::run_with_pairing(const Design             &start,
+OptimizationResult Search<dim>::run_with_pairing(Objective<dim>           &searched,
+                                                 const Design             &start,
                                                  const OptimizationResult &before,
-                                                 const double              tolerance)
+                                                 const double              tolerance,
+                                                 const unsigned int        most_evaluations)
 {
   optimization::Hooks hooks;
   hooks.on_iteration = [&](const Iteration &i) { report(i, before); };
   hooks.log          = [&](const std::string &line) { log(line); };
   auto parameters    = problem.scene.optimization;
-  parameters.maximum_evaluations -= before.evaluations;
+  parameters.maximum_evaluations =
+    std::min(parameters.maximum_evaluations, most_evaluations) - before.evaluations;
   parameters.objective_tolerance = std::max(parameters.objective_tolerance, tolerance);
 
   if (before.evaluations > 0)
     parameters.starts = 1;
 
-  auto result = optimization::minimize_from_starts(decorated_problem(start), parameters, hooks);
+  auto result =
+    optimization::minimize_from_starts(decorated_problem(searched, start), parameters, hooks);
   if (result.constraint_violation > parameters.constraint_tolerance)
     result.violated = violated(objective, problem, result.evaluation.reported, result.x);
   result.iterations += before.iterations;
@@ -303,13 +324,15 @@ template <int dim>
 OptimizationResult
 Search<dim>::run(const Design &start, const OptimizationResult &before, const double tolerance)
 {
-  auto result = run_with_pairing(start, before, tolerance);
+  auto result = run_with_pairing(objective, start, before, tolerance);
+  if (before.evaluations == 0)
+    result = widen_contact(start, result, tolerance);
   // The rows of B belong to a contact search, so a new one separates two searches.
   for (unsigned int round = 0; round < problem.scene.contact.update_pairing; ++round)
     {
       if (!update_pairing(result))
         break;
-      result = run_with_pairing(result.x, result, tolerance);
+      result = run_with_pairing(objective, result.x, result, tolerance);
     }
   return result;
 }

@@ -1,3 +1,4 @@
+#include <snug/accuracy/sharp_edges.h>
 #include <snug/app/state_report.h>
 
 #include <algorithm>
@@ -8,9 +9,10 @@ namespace {
 /// Components of vectors below this fraction of the largest vector of their kind are round-off.
 const double round_off = 1e-6;
 
-/// Return a vector as "(1 0 -2)".
+} // namespace
+
 template <int n>
-std::string text_of(const dealii::Tensor<1, n> &vector, const double scale)
+std::string vector_text(const dealii::Tensor<1, n> &vector, const double scale)
 {
   std::ostringstream text;
   for (unsigned int d = 0; d < n; ++d)
@@ -18,13 +20,14 @@ std::string text_of(const dealii::Tensor<1, n> &vector, const double scale)
   return text.str() + ")";
 }
 
+namespace {
 /// Return a moment, in the plane its last component alone.
 template <int dim>
 std::string moment_text(const dealii::Tensor<1, 3> &moment, const double scale)
 {
   if (dim == 3)
-    return text_of(moment, scale);
-  return text_of(dealii::Tensor<1, 1>({moment[2]}), scale);
+    return vector_text(moment, scale);
+  return vector_text(dealii::Tensor<1, 1>({moment[2]}), scale);
 }
 
 /// Return the largest force, and the largest moment, of a state.
@@ -67,7 +70,7 @@ void print_stress(RunContext &context, const Units &units, const state::ContactS
 {
   const auto print = [&](std::ostream &out, const state::StressPeak<dim> &peak) {
     out << "largest von Mises stress " << peak.von_mises << units.after_number("force/length^2")
-        << " at " << text_of(peak.place, state.displacement_peak.extent)
+        << " at " << vector_text(peak.place, state.displacement_peak.extent)
         << units.after_number("length") << " in body " << peak.body << '\n';
   };
   print(context.out(Verbosity::quiet), state.stress_peak());
@@ -76,13 +79,26 @@ void print_stress(RunContext &context, const Units &units, const state::ContactS
       print(context.out(Verbosity::debug) << "  ", peak);
 }
 
-/// Print the forces of pairs and supports.
+} // namespace
+
 template <int dim>
-void print_forces(RunContext                     &context,
-                  const Units                    &units,
-                  const state::ContactState<dim> &state,
-                  const double                    extent)
+std::string edge_remark(const ShapeProblem<dim>        &problem,
+                        const state::ContactState<dim> &state,
+                        const state::PairState<dim>    &pair)
 {
+  bool is_at_edge = false;
+  for (const auto &edge : accuracy::sharp_edges(*problem.solver, state))
+    for (const unsigned int row : edge.rows)
+      is_at_edge = is_at_edge || state.contact[row].pressure == pair.max_pressure;
+  return is_at_edge ? ", at a sharp edge, where the exact pressure has no limit" : "";
+}
+
+template <int dim>
+void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state)
+{
+  auto             &context = problem.context;
+  const Units       units(problem.scene.units);
+  const double      extent = state.displacement_peak.extent;
   const std::string length = units.after_number("length"), force = units.after_number("force"),
                     moment = units.after_number("force length");
   const auto   largest     = largest_forces(state);
@@ -92,25 +108,24 @@ void print_forces(RunContext                     &context,
   auto        &out = context.out(), &details = context.out(Verbosity::debug);
   for (const auto &pair : state.pairs)
     {
-      out << "  contact " << pair.name << ": force " << text_of(pair.force, forces) << force
+      out << "  contact " << pair.name << ": force " << vector_text(pair.force, forces) << force
           << ", area " << pair.contact_area << units.after_number("length^2")
           << ", largest nodal pressure " << pair.max_pressure
-          << units.after_number("force/length^2") << " at " << text_of(pair.peak, extent) << length
-          << ", " << pair.active_contacts << " of " << pair.rows << " nodes in contact\n";
+          << units.after_number("force/length^2") << " at " << vector_text(pair.peak, extent)
+          << length << edge_remark(problem, state, pair) << ", " << pair.active_contacts << " of "
+          << pair.rows << " nodes in contact\n";
       details << "    moment " << moment_text<dim>(pair.moment, moments) << moment << " about "
-              << text_of(pair.centre, extent) << length << ", face size at the peak "
+              << vector_text(pair.centre, extent) << length << ", face size at the peak "
               << pair.peak_size << length << '\n';
     }
   for (const auto &reaction : state.reactions)
-    out << "  support " << reaction.name << ": force " << text_of(reaction.force, forces) << force
-        << ", moment " << moment_text<dim>(reaction.moment, moments) << moment << " about "
-        << text_of(reaction.centre, extent) << length << '\n';
-  details << "sum of loads " << text_of(state.load, forces) << force
-          << ", with reactions and obstacle forces " << text_of(state.balance, forces) << force
+    out << "  support " << reaction.name << ": force " << vector_text(reaction.force, forces)
+        << force << ", moment " << moment_text<dim>(reaction.moment, moments) << moment << " about "
+        << vector_text(reaction.centre, extent) << length << '\n';
+  details << "sum of loads " << vector_text(state.load, forces) << force
+          << ", with reactions and obstacle forces " << vector_text(state.balance, forces) << force
           << '\n';
 }
-} // namespace
-
 template <int dim>
 void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state)
 {
@@ -123,7 +138,7 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
   if (problem.n_load_cases() > 1)
     out << "load case " << problem.scene.load_cases[state.load_case].name << ":\n";
   if (!state.pairs.empty())
-    out << "contact force " << text_of(state.contact_force, largest_forces(state).first)
+    out << "contact force " << vector_text(state.contact_force, largest_forces(state).first)
         << units.after_number("force") << ", contact area " << state.contact_area
         << units.after_number("length^2") << ", largest nodal pressure " << state.max_pressure
         << units.after_number("force/length^2") << '\n';
@@ -133,17 +148,17 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
         << (state.dissipation <= round_off * state.strain_energy ? 0. : state.dissipation) << energy
         << '\n';
   out << "largest displacement " << moved.size << length << ": "
-      << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, moved.extent)
-      << length << '\n';
+      << vector_text(moved.displacement, moved.size) << " at "
+      << vector_text(moved.position, moved.extent) << length << '\n';
   print_stress(context, units, state);
   out << "work of loads " << state.compliance << energy << ", strain energy " << state.strain_energy
       << energy << ", potential energy " << state.energy << energy << std::endl;
-  print_forces(context, units, state, moved.extent);
+  print_forces(problem, state);
   print_certificate(context, state);
   context.out(Verbosity::debug) << "nodes in contact: " << state.active_contacts << " of "
                                 << state.contact.size() << ", " << state.weak_contacts
                                 << " weakly active, strict complementarity margin "
-                                << state.degeneracy_distance
+                                << state.contact_change_margin
                                 << "\nminimum scaled Jacobian: " << state.least_scaled_jacobian
                                 << '\n'
                                 << state.dual.method << ": "
@@ -151,6 +166,13 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
                                 << counted(state.f_mults, "F-mult") << std::endl;
 }
 
-template void print_state(const ShapeProblem<2> &, const state::ContactState<2> &);
-template void print_state(const ShapeProblem<3> &, const state::ContactState<3> &);
+#define SNUG_INSTANTIATE(dim)                                                                     \
+  template void        print_state(const ShapeProblem<dim> &, const state::ContactState<dim> &);  \
+  template void        print_forces(const ShapeProblem<dim> &, const state::ContactState<dim> &); \
+  template std::string edge_remark(const ShapeProblem<dim> &, const state::ContactState<dim> &,   \
+                                   const state::PairState<dim> &);                                \
+  template std::string vector_text(const dealii::Tensor<1, dim> &, double);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::app

@@ -88,8 +88,9 @@ std::string describe_motion(const std::vector<double> &motion)
   return text.str();
 }
 
-/// Return a text such as "body punch escapes: translation (0 0 1), rotation (0 0 0)" for the body
-/// that moves most under @p motion, which is in coordinates of the body modes.
+/// Return a text such as "body punch is not held against its load along translation (0 0 1),
+/// rotation (0 0 0)" for the body that moves most under @p motion, which is in coordinates of the
+/// body modes.
 std::string describe_escape(const qp::MultiVector &motion, const SubdomainTable &table)
 {
   const unsigned int  m = table.n_modes;
@@ -97,7 +98,7 @@ std::string describe_escape(const qp::MultiVector &motion, const SubdomainTable 
   for (unsigned int i = 0; i < motion.n_rows(); ++i)
     squares[i / m] += motion(i) * motion(i);
   const auto body = std::max_element(squares.begin(), squares.end()) - squares.begin();
-  return "body " + table.body_names[body] + " escapes: " +
+  return "body " + table.body_names[body] + " is not held against its load along " +
          describe_motion({motion.column(0) + body * m, motion.column(0) + (body + 1) * m});
 }
 

@@ -9,8 +9,8 @@ namespace snug::io {
 /// Return the header, whose columns have the widths of log_line().
 std::string log_header()
 {
-  return "iter evals           objective   gradient   violation contacts F-mults"
-         "   quality    seconds";
+  return "iter evals           objective   gradient   violation contacts dual-its"
+         "  quality    seconds";
 }
 
 std::string log_line(const HistoryLine &line)

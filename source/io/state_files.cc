@@ -63,6 +63,22 @@ std::string escaped(const std::string &name)
   return text;
 }
 
+/// Return the VTM element of a block: a data set without pieces, because PyVista does not read
+/// pieces, or a group of the data sets of several files.
+std::string vtm_element(const unsigned int index, const Block &block, const Texts &files)
+{
+  const auto head = [](const unsigned int number, const std::string &name) {
+    return " index=\"" + std::to_string(number) + "\" name=\"" + escaped(name) + '"';
+  };
+  if (files.size() < 2)
+    return "<DataSet" + head(index, block.name) +
+           (files.empty() ? "" : " file=\"" + files.front() + '"') + "/>\n";
+  std::string text = "<Block" + head(index, block.name) + ">\n";
+  for (unsigned int i = 0; i < files.size(); ++i)
+    text += "<DataSet" + head(i, "part " + std::to_string(i)) + " file=\"" + files[i] + "\"/>\n";
+  return text + "</Block>\n";
+}
+
 /// Return the VTM text, which has the blocks of a group next to each other.
 std::string vtm(const std::vector<Block> &blocks, const std::vector<Texts> &files)
 {
@@ -75,13 +91,7 @@ std::string vtm(const std::vector<Block> &blocks, const std::vector<Texts> &file
       out << "<Block index=\"" << n_groups++ << "\" name=\"" << escaped(blocks[first].group)
           << "\">\n";
       for (; b < blocks.size() && blocks[b].group == blocks[first].group; ++b)
-        {
-          out << "<Piece index=\"" << b - first << "\" name=\"" << escaped(blocks[b].name)
-              << "\">\n";
-          for (unsigned int i = 0; i < files[b].size(); ++i)
-            out << "<DataSet index=\"" << i << "\" file=\"" << files[b][i] << "\"/>\n";
-          out << "</Piece>\n";
-        }
+        out << vtm_element(b - first, blocks[b], files[b]);
       out << "</Block>\n";
     }
   out << "</vtkMultiBlockDataSet>\n</VTKFile>\n";

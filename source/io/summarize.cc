@@ -159,7 +159,7 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"von_mises", array_of(state.stress_peaks)},
           {"active_contacts", state.active_contacts},
           {"weak_contacts", state.weak_contacts},
-          {"degeneracy_distance", state.degeneracy_distance},
+          {"contact_change_margin", state.contact_change_margin},
           {"outer_iterations", state.dual.outer_iterations},
           {"f_mults", state.f_mults},
           {"linear_f_mults", linear},

@@ -25,9 +25,9 @@ Json summary_part(const Summary::Mesh &mesh)
           {"dofs", mesh.dofs},
           {"subdomains", mesh.subdomains},
           {"ranks", mesh.ranks},
-          {"dual_rows", mesh.dual_rows},
+          {"constraints", mesh.constraints},
           {"contact_rows", mesh.contact_rows},
-          {"kernel_dimension", mesh.kernel_dimension}};
+          {"rigid_body_modes", mesh.rigid_body_modes}};
 }
 
 Json summary_part(const Summary::GradientRow &row)
@@ -92,8 +92,9 @@ Json summary_part(const Summary::Optimization &optimization)
           {"objective_final", optimization.objective_final},
           {"constraint_violation", optimization.constraint_violation},
           {"constraints", summary_part(optimization.constraints)},
-          {"objective_paired_anew", optimization.objective_paired_anew},
-          {"constraint_violation_paired_anew", optimization.constraint_violation_paired_anew},
+          {"objective_after_contact_update", optimization.objective_after_contact_update},
+          {"constraint_violation_after_contact_update",
+           optimization.constraint_violation_after_contact_update},
           {"gain", summary_part(optimization.gain)},
           {"projected_gradient", optimization.projected_gradient},
           {"stop_reason", optimization.stop_reason},

@@ -130,7 +130,7 @@ bool Progress::has_gained() const
 std::string Progress::stop_reason(const StopReason end, const std::string &failure) const
 {
   if (end == StopReason::none || end == StopReason::round_off)
-    return is_feasible(*best) ? "round-off" : "constraints violated";
+    return is_feasible(*best) ? "round-off" : "no design satisfies the limits";
   return to_text(end) + (end == StopReason::no_value ? " (" + failure + ")" : "");
 }
 

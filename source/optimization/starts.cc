@@ -20,19 +20,6 @@ std::vector<double> random_start(const DesignProblem &problem, const unsigned in
   return x;
 }
 
-bool is_better(const OptimizationResult     &a,
-               const OptimizationResult     &b,
-               const OptimizationParameters &parameters)
-{
-  const auto is_feasible = [&](const OptimizationResult &result) {
-    return result.constraint_violation <= parameters.constraint_tolerance;
-  };
-  if (is_feasible(a) != is_feasible(b))
-    return is_feasible(a);
-  return is_feasible(a) ? a.objective_final < b.objective_final
-                        : a.constraint_violation < b.constraint_violation;
-}
-
 /// Return @p hooks for a search after those of @p before, whose numbers continue.
 Hooks counting_from(const OptimizationResult &before, const Hooks &hooks)
 {
@@ -46,6 +33,19 @@ Hooks counting_from(const OptimizationResult &before, const Hooks &hooks)
   return result;
 }
 } // namespace
+
+bool is_better(const OptimizationResult     &a,
+               const OptimizationResult     &b,
+               const OptimizationParameters &parameters)
+{
+  const auto is_feasible = [&](const OptimizationResult &result) {
+    return result.constraint_violation <= parameters.constraint_tolerance;
+  };
+  if (is_feasible(a) != is_feasible(b))
+    return is_feasible(a);
+  return is_feasible(a) ? a.objective_final < b.objective_final
+                        : a.constraint_violation < b.constraint_violation;
+}
 
 OptimizationResult minimize_from_starts(const DesignProblem          &problem,
                                         const OptimizationParameters &parameters,

@@ -230,8 +230,8 @@ void describe_contact(const StateSolver<dim>     &solver,
       // A weak contact opens along one direction of the design and presses along the opposite one.
       point.weak = !point.strong && std::abs(gaps[i]) <= strong_part * largest_gap;
       if (largest > 0.)
-        state.degeneracy_distance =
-          std::min(state.degeneracy_distance,
+        state.contact_change_margin =
+          std::min(state.contact_change_margin,
                    std::max(lambda[i] / largest, std::abs(gaps[i]) / largest_gap));
     }
   if (solver.mesh().degree() == 2)

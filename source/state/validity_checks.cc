@@ -242,8 +242,7 @@ std::vector<Warning> warnings(const ValidityChecks &validity)
   check("strain", validity.strain, large_strain,
         line("strains are", validity.strain, "", ": small strains are assumed"));
   check("slip", validity.slip, large_slip,
-        line("active contacts slip tangentially by", validity.slip, " of a face",
-             ": small slip is assumed"));
+        line("nodes in contact slip by", validity.slip, " of a face", ": small slip is assumed"));
   check("pairing drift", validity.drift, large_drift,
         line("the design moved slave nodes away from their paired points by", validity.drift,
              " of a face", ": see 'Contact/Update pairing'"));
@@ -283,7 +282,7 @@ void check_overlaps(const std::vector<contact::Pair>       &pairs,
     // Gaps are replicated like all contact data, so all ranks throw, or none.
     if (gaps[p].overlap > absurd_overlap)
       throw bad_entry("Contact/Pairs", pairs[p].name(),
-                      line("the sides overlap initially" + place + " by", -gaps[p].least,
+                      line("the initial penetration" + place + " is", -gaps[p].least,
                            of_a_face(gaps[p]),
                            ": pair faces that look at each other, or, if the overlap is intended, "
                            "set 'Interference' of the pair"));
@@ -296,11 +295,11 @@ std::vector<Warning> overlap_warnings(const std::vector<contact::Pair>       &pa
   std::vector<Warning> result;
   for (unsigned int p = 0; p < pairs.size(); ++p)
     if (gaps[p].overlap > large_overlap)
-      result.push_back(
-        {"overlap",
-         line("'" + pairs[p].name() + "' overlaps initially" + place + " by", -gaps[p].least,
-              of_a_face(gaps[p]), ": if the overlap is intended, set 'Interference' of the pair"),
-         gaps[p].overlap, large_overlap});
+      result.push_back({"overlap",
+                        line("the initial penetration of '" + pairs[p].name() + "'" + place + " is",
+                             -gaps[p].least, of_a_face(gaps[p]),
+                             ": if the overlap is intended, set 'Interference' of the pair"),
+                        gaps[p].overlap, large_overlap});
   return result;
 }
 

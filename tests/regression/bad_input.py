@@ -269,7 +269,7 @@ def check_unsolved(runner, scene):
                 "Optimization/Constraints=volume: = 1.5 initial"]
     run = [scene, *(word for entry in settings for word in ("--set", entry))]
     for ranks in 1, 3:
-        runner.expect_error("constraints violated", run,
+        runner.expect_error("no design satisfies the limits", run,
                             ["maximum evaluations", "violates"], 3, ranks)
     runner.expect_success("constraints met", [
         *run, "--set", "Optimization/Constraints=volume: = initial"])

@@ -53,8 +53,8 @@ def blocks(path):
     reader = vtkXMLMultiBlockDataReader()
     reader.SetFileName(str(path))
     reader.Update()
-    return {group: {name: [parts.GetPiece(k) for k in range(parts.GetNumberOfPieces())]
-                    for name, parts in named(block).items()}
+    return {group: {name: [grid] if grid.IsA("vtkDataSet") else list(named(grid).values())
+                    for name, grid in named(block).items()}
             for group, block in named(reader.GetOutput()).items()}
 
 

@@ -14,8 +14,9 @@ struct Analysis
 {
   typename ShapeProblem<dim>::Design design;
   typename ShapeProblem<dim>::States states;
-  /// of responses in load cases; empty until Analyses::gradients() computes them
-  sensitivity::Gradients<dim> gradients = {};
+  /// of `measured` responses in load cases; empty until Analyses::gradients() computes them
+  sensitivity::Gradients<dim>         gradients = {};
+  sensitivity::MeasuredResponses<dim> measured  = {};
 };
 
 /**
@@ -41,8 +42,8 @@ public:
   /// another design is analysed or contact is searched. @throws TangledMesh, SolveError.
   Analysis<dim> &at(const Design &design);
 
-  /// Return the gradients of @p measured responses at @p design. The first call for a design
-  /// computes them; later calls return the same ones, so that they must measure the same responses.
+  /// Return the gradients of @p measured responses at @p design. Calls with the same design and
+  /// responses as the last call return the gradients of that call, also with other parameters.
   /// Afterwards the solver is at the geometry of its states.
   const sensitivity::Gradients<dim> &gradients(const Design                              &design,
                                                const sensitivity::MeasuredResponses<dim> &measured,

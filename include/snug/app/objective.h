@@ -32,6 +32,15 @@ public:
   /// relative to its value. Collective.
   Objective(const ShapeProblem<dim> &problem, Analyses<dim> &analyses, const Design &paired);
 
+  /// Return these constraints with the objective @p response, combined over load cases as this one.
+  Objective with_objective(std::shared_ptr<const response::Response<dim>> response) const;
+
+  /// Return the response of the objective.
+  const response::Response<dim> &response() const { return *quantities.front().response; }
+
+  /// Return whether a constraint limits a response of the geometry alone, such as the volume.
+  bool limits_geometry() const;
+
   /// Solve a design and return the values, without gradients. Collective. @throws TangledMesh,
   /// SolveError.
   optimization::Evaluation evaluate(const Design &design);

@@ -33,9 +33,10 @@ struct SearchRecord
 };
 
 /**
- * This class optimizes a shape problem on its mesh, with log, history, journal and pictures. If the
- * design has moved slave nodes along the master, a new contact search and a further optimization
- * follow.
+ * This class optimizes a shape problem on its mesh, with log, history, journal and pictures. If a
+ * search on pressures has left the nodes in contact as they were, searches with the potential
+ * energy and again with the pressure follow. If the design has moved slave nodes along the master,
+ * a new contact search and a further optimization follow.
  */
 template <int dim>
 class Search
@@ -60,9 +61,9 @@ public:
   /// first design is solved for them. Collective.
   void finish_first();
 
-  /// Warn if the gradients at @p design are one-sided, because a contact has neither a gap nor a
-  /// force. Collective.
-  void warn_of_weak_contacts(const Design &design);
+  /// Warn if the gradients of @p searched at @p design are one-sided, because a contact has neither
+  /// a gap nor a force. Collective.
+  void warn_of_weak_contacts(Objective<dim> &searched, const Design &design);
 
   void log(const std::string &line) const { problem.context.out() << line << std::endl; }
 
@@ -75,12 +76,20 @@ public:
 private:
   using Result = optimization::OptimizationResult;
 
-  optimization::DesignProblem decorated_problem(const Design &start);
+  optimization::DesignProblem decorated_problem(Objective<dim> &searched, const Design &start);
 
   void   report(const optimization::Iteration &iteration, const Result &before);
   void   report_first(const optimization::Iteration &iteration);
-  Result run_with_pairing(const Design &start, const Result &before, double tolerance);
+  double scene_objective(const optimization::Evaluation &evaluation) const;
+  Result run_with_pairing(Objective<dim> &searched,
+                          const Design   &start,
+                          const Result   &before,
+                          double          tolerance,
+                          unsigned int most_evaluations = std::numeric_limits<unsigned int>::max());
+  Result widen_contact(const Design &start, const Result &result, double tolerance);
   bool   update_pairing(const Result &result);
+
+  unsigned int first_contacts = 0; ///< nodes in contact at the first design of the last search
 };
 } // namespace snug::app
 

@@ -12,6 +12,23 @@ namespace snug::app {
  */
 template <int dim>
 void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state);
+
+/// Print the forces of the pairs and supports of a state, with the largest pressures of the pairs
+/// and their places. Collective.
+template <int dim>
+void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state);
+
+/// Return ", at a sharp edge, where the exact pressure has no limit" if the largest pressure of @p
+/// pair of
+/// @p state is there, else an empty text. Collective.
+template <int dim>
+std::string edge_remark(const ShapeProblem<dim>        &problem,
+                        const state::ContactState<dim> &state,
+                        const state::PairState<dim>    &pair);
+
+/// Return a vector as "(1 0 -2)", where components below 1e-6 of @p scale are round-off.
+template <int n>
+std::string vector_text(const dealii::Tensor<1, n> &vector, double scale);
 } // namespace snug::app
 
 #endif

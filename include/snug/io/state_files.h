@@ -19,7 +19,7 @@ struct Block
  * Write one state of a series into @p directory, for ParaView:
  *
  * - STEM/NUMBER-NAME.RANKS.vtu contains the cells of one block on one group of ranks,
- * - STEM.vtm names all blocks as group, then name,
+ * - STEM.vtm names all blocks as group, then name; a block of several files is a group of them,
  * - STEM.pvtu joins the blocks of the first group to one grid.
  *
  * The blocks are the same on all ranks except for their pieces. Collective.

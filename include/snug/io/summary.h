@@ -38,12 +38,12 @@ struct Summary
 
   struct Mesh
   {
-    unsigned int  bodies     = 0;
-    unsigned long cells      = 0; ///< active cells of all ranks
-    unsigned long dofs       = 0; ///< unknowns of the untorn bodies, without hanging nodes
-    unsigned int  subdomains = 0;
-    unsigned int  ranks      = 1;
-    unsigned long dual_rows = 0, contact_rows = 0, kernel_dimension = 0;
+    unsigned int  bodies      = 0;
+    unsigned long cells       = 0; ///< active cells of all ranks
+    unsigned long dofs        = 0; ///< unknowns of the untorn bodies, without hanging nodes
+    unsigned int  subdomains  = 0;
+    unsigned int  ranks       = 1;
+    unsigned long constraints = 0, contact_rows = 0, rigid_body_modes = 0;
   };
 
   /// Members are those of accuracy::EnergyEstimate, and the estimated errors of responses by name.
@@ -100,7 +100,7 @@ struct Summary
     std::string         algorithm;
     std::optional<Gain> gain = {}; ///< present if errors of the objective are estimated
     /// values of the final design after a new contact search, if the contact is paired differently
-    double                  objective_paired_anew = none, constraint_violation_paired_anew = none;
+    double objective_after_contact_update = none, constraint_violation_after_contact_update = none;
     std::vector<Constraint> constraints = {};
     /// variables of the design by the name of their shape
     std::vector<std::pair<std::string, std::vector<double>>> shapes = {};
@@ -213,7 +213,7 @@ std::string blas_warning(const Summary::Program &program);
 /// Return the member units.
 std::vector<std::pair<std::string, std::string>> summarize_units(const scene::Scene &scene);
 
-/// Return all members of Mesh except dual_rows, contact_rows and kernel_dimension.
+/// Return all members of Mesh except constraints, contact_rows and rigid_body_modes.
 template <int dim>
 Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing);
 

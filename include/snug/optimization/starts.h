@@ -4,6 +4,12 @@
 #include <snug/optimization/minimize.h>
 
 namespace snug::optimization {
+/// Return whether @p a satisfies the constraints and @p b does not, or, if both satisfy them, has
+/// the lower objective, or, if none does, the lower violation.
+bool is_better(const OptimizationResult     &a,
+               const OptimizationResult     &b,
+               const OptimizationParameters &parameters);
+
 /**
  * Minimize from the start of @p problem and from `parameters.starts` - 1 random designs, one after
  * the other, and return the best result: that with the lowest objective among those that satisfy

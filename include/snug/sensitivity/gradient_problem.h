@@ -31,6 +31,11 @@ struct Measured
 {
   const response::Response<dim> *response;
   unsigned int                   load_case; ///< index into LoadCases
+
+  bool operator==(const Measured &other) const
+  {
+    return response == other.response && load_case == other.load_case;
+  }
 };
 
 template <int dim>

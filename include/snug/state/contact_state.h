@@ -215,7 +215,7 @@ struct ContactState
   double                 dissipation       = 0.; ///< sum of shear . slip, work of friction
   /// minimum of max(lambda_i / max lambda, |gap_i| / max F_ii lambda_i), which is the distance from
   /// a weakly active contact; infinite without contacts
-  double degeneracy_distance = std::numeric_limits<double>::infinity();
+  double contact_change_margin = std::numeric_limits<double>::infinity();
   /// minimum over closed contacts with friction of max(1 - |shear| / limit, |slip| / max F_ii
   /// lambda_i), which is the distance from a change between stick and slip
   double         friction_distance = std::numeric_limits<double>::infinity();

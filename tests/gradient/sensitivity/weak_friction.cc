@@ -102,7 +102,7 @@ void expect_one_sided(const TestScene<dim> &given, const double t, const double 
   GradientScene<dim> scene(given, 0.05);
   const auto         state = scene.solve(scene.design);
   ASSERT_EQ(state.weak_contacts, 1u);
-  EXPECT_LT(std::min(state.friction_distance, state.degeneracy_distance), 1e-8);
+  EXPECT_LT(std::min(state.friction_distance, state.contact_change_margin), 1e-8);
   std::vector<std::vector<double>>      directions;
   std::vector<mesh::Field<dim>>         V;
   const sensitivity::GradientParameters parameters;

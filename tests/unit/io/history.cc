@@ -69,7 +69,7 @@ TEST(History, LogLineStandsUnderItsHeader)
   EXPECT_EQ(header.size(), line.size());
   std::istringstream                  names(header), numbers(line);
   const std::map<std::string, double> values = {
-    {"iter", 7.}, {"evals", 15.}, {"objective", -0.1}, {"contacts", 28.}, {"F-mults", 1234.}};
+    {"iter", 7.}, {"evals", 15.}, {"objective", -0.1}, {"contacts", 28.}, {"dual-its", 1234.}};
   std::vector<std::string> columns;
   for (std::string name; names >> name;)
     {
@@ -84,7 +84,7 @@ TEST(History, LogLineStandsUnderItsHeader)
     }
   EXPECT_EQ(columns,
             (std::vector<std::string>{"iter", "evals", "objective", "gradient", "violation",
-                                      "contacts", "F-mults", "quality", "seconds"}));
+                                      "contacts", "dual-its", "quality", "seconds"}));
 }
 
 TEST(TextFile, ExactNumbersReadBack)

@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 /// The keys other tools read.
 const std::map<std::string, std::string> fixed_keys = {
   {"program", "version dealii petsc blas compiler ranks"},
-  {"mesh", "bodies cells dofs subdomains ranks dual_rows contact_rows "
-           "kernel_dimension"},
+  {"mesh", "bodies cells dofs subdomains ranks constraints contact_rows "
+           "rigid_body_modes"},
   {"state", "least_scaled_jacobian energy compliance strain_energy contact_force "
             "contact_area "
             "max_pressure active_contacts outer_iterations f_mults linear_f_mults "

@@ -209,7 +209,7 @@ TEST(Sqp, NeverClaimsSuccessForAVolumeThatCannotBe)
         const auto result              = minimize(knapsack.problem(), parameters);
         EXPECT_FALSE(result.success);
         EXPECT_GT(result.constraint_violation, 0.3);
-        EXPECT_EQ(result.stop_reason, "constraints violated");
+        EXPECT_EQ(result.stop_reason, "no design satisfies the limits");
       }
 }
 
