@@ -2,6 +2,7 @@
 #include <snug/app/state_report.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace snug::app {
@@ -64,19 +65,46 @@ void print_certificate(RunContext &context, const state::ContactState<dim> &stat
   out << std::endl;
 }
 
-/// Print the maximum von Mises stress, and those of all bodies as details.
-template <int dim>
-void print_stress(RunContext &context, const Units &units, const state::ContactState<dim> &state)
+/// Print the comparison of the stresses of a body with its yield stress. The limits of Johnson
+/// (1985), sections 4.2 and 9.2, are those of line contact.
+void print_yield(std::ostream            &out,
+                 const Units             &units,
+                 const std::string       &body,
+                 const state::YieldCheck &yield,
+                 const bool               is_line_contact)
 {
-  const auto print = [&](std::ostream &out, const state::StressPeak<dim> &peak) {
-    out << "largest von Mises stress " << peak.von_mises << units.after_number("force/length^2")
-        << " at " << vector_text(peak.place, state.displacement_peak.extent)
-        << units.after_number("length") << " in body " << peak.body << '\n';
-  };
-  print(context.out(Verbosity::quiet), state.stress_peak());
-  if (state.stress_peaks.size() > 1)
-    for (const auto &peak : state.stress_peaks)
-      print(context.out(Verbosity::debug) << "  ", peak);
+  out << "  body " << body << ": yield stress / largest von Mises stress "
+      << 1. / yield.utilization;
+  if (yield.volume > 0.)
+    {
+      out << ", volume above the yield stress " << yield.volume << units.after_number("length^3");
+      if (std::isfinite(yield.depth))
+        out << " to a depth of " << yield.depth << units.after_number("length");
+    }
+  if (yield.pressure_over_shear > 0.)
+    out << ", largest nodal pressure / yield stress in shear " << yield.pressure_over_shear
+        << (is_line_contact ? " (Johnson: first yield 3.1 and shakedown 4.0 for line contact "
+                              "without friction)"
+                            : "");
+  out << '\n';
+}
+
+/// Print the maximum von Mises stress and its comparison with yield stresses.
+template <int dim>
+void print_stress(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state)
+{
+  auto       &out = problem.context.out(Verbosity::quiet);
+  const Units units(problem.scene.units);
+  const auto  peak = state.stress_peak();
+  const bool  is_line_contact =
+    problem.mesh->idealization().kind == mesh::Idealization::Kind::plane_strain &&
+    !state.has_friction();
+  out << "largest von Mises stress " << peak.von_mises << units.after_number("force/length^2")
+      << " at " << vector_text(peak.place, state.displacement_peak.extent)
+      << units.after_number("length") << " in body " << peak.body << '\n';
+  for (const auto &of_body : state.stress_peaks)
+    if (of_body.yield.yield_stress > 0.)
+      print_yield(out, units, of_body.body, of_body.yield, is_line_contact);
 }
 
 } // namespace
@@ -148,9 +176,15 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
         << (state.dissipation <= round_off * state.strain_energy ? 0. : state.dissipation) << energy
         << '\n';
   out << "largest displacement " << moved.size << length << ": "
+<<<<<<< HEAD
       << vector_text(moved.displacement, moved.size) << " at "
       << vector_text(moved.position, moved.extent) << length << '\n';
   print_stress(context, units, state);
+=======
+      << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, moved.extent)
+      << length << '\n';
+  print_stress(problem, state);
+>>>>>>> 9551296f (Compare elastic stresses with a yield stress)
   out << "work of loads " << state.compliance << energy << ", strain energy " << state.strain_energy
       << energy << ", potential energy " << state.energy << energy << std::endl;
   print_forces(problem, state);

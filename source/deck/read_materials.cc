@@ -85,6 +85,16 @@ public:
       material(keyword).expansion = number_of(keyword);
   }
 
+  /// Plasticity is lacking, but the first yield stress is compared with the stresses.
+  void read_plastic(const Keyword &keyword)
+  {
+    reading.lacks(keyword, "");
+    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (material(keyword).yield_stress == 0.)
+        material(keyword).yield_stress = mesh_file::numbers_from(words, 0, line).at(0);
+    });
+  }
+
   void read_section(const Keyword &keyword)
   {
     const auto       &sets = reading.deck.sets;
@@ -235,6 +245,7 @@ KeywordReadings material_readings(Reading &reading)
           {"MATERIAL", {by(&M::read_material), {{"NAME"}, {}}, false}},
           {"ELASTIC", {by(&M::read_elastic), {{"TYPE"}, {"MODULI"}}}},
           {"DENSITY", {by(&M::read_density)}},
+          {"PLASTIC", {by(&M::read_plastic), {{"HARDENING"}, {}}}},
           {"EXPANSION", {by(&M::read_expansion), {{"TYPE", "ZERO"}, {}}}},
           {"SOLIDSECTION",
            {by(&M::read_section), {{"ELSET", "MATERIAL"}, {"ORIENTATION", "CONTROLS"}}}},

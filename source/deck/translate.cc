@@ -102,6 +102,8 @@ private:
       write_entry({"Density", to_text(material.density)});
     if (material.expansion != 0.)
       write_entry({"Expansion", to_text(material.expansion)});
+    if (material.yield_stress > 0.)
+      write_entry({"Yield stress", to_text(material.yield_stress)});
     write("end");
   }
 

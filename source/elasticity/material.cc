@@ -8,6 +8,9 @@ void Material::declare(Entries &entries)
               "The Young's modulus, positive. Units: force/length^2.");
   entries.add("Poisson's ratio", poissons_ratio, inside(-1., 0.5),
               "The Poisson's ratio, above -1 and below 0.5.");
+  entries.add("Yield stress", yield_stress, at_least(0.),
+              "The yield stress in tension, with which the von Mises stresses are compared; the "
+              "material stays elastic. A value of 0 means no comparison. Units: force/length^2.");
   entries.add("Density", density, at_least(0.),
               "The mass per volume, for gravity and the quantity mass. Units: mass/length^3.");
   entries.add("Expansion", expansion,

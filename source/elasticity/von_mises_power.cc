@@ -5,14 +5,11 @@
 #include <cmath>
 
 namespace snug::elasticity {
-/// Construct the integrals. Stresses are divided by @p scale before the power is taken, because
-/// otherwise large p would overflow.
 template <int dim>
 VonMisesPower<dim>::VonMisesPower(const unsigned int        degree,
                                   const mesh::Idealization &idealization,
-                                  const double              p,
-                                  const double              scale)
-  : idealization(idealization), p(p), scale(scale), gauss(mesh::lagrange_gauss_points<dim>(degree))
+                                  const double              p)
+  : idealization(idealization), p(p), gauss(mesh::lagrange_gauss_points<dim>(degree))
 {}
 
 /// Return s = 2 mu dev e.
@@ -46,10 +43,12 @@ double VonMisesPower<dim>::largest(const Nodes              &X,
   return result;
 }
 
+/// Divide stresses by @p scale before the power is taken, because otherwise large p would overflow.
 template <int dim>
 double VonMisesPower<dim>::value(const Nodes              &X,
                                  const Material           &material,
                                  const Nodes              &u,
+                                 const double              scale,
                                  const ThermalStrain<dim> &thermal) const
 {
   double result = 0.;
@@ -65,6 +64,7 @@ template <int dim>
 void VonMisesPower<dim>::add_gradients(const Nodes              &X,
                                        const Material           &material,
                                        const Nodes              &u,
+                                       const double              scale,
                                        const double              factor,
                                        Nodes                    &by_u,
                                        Nodes                    &by_X,

@@ -78,7 +78,28 @@ Summary::State summary_part(const state::PairState<dim> &pair)
 template <int dim>
 Summary::State summary_part(const state::StressPeak<dim> &peak)
 {
-  return {{"body", peak.body}, {"value", peak.von_mises}, {"place", numbers(peak.place)}};
+  Summary::State yield;
+  if (peak.yield.yield_stress > 0.)
+    yield = {{"stress", peak.yield.yield_stress},
+             {"over_von_mises", 1. / peak.yield.utilization},
+             {"volume_above", peak.yield.volume},
+             {"depth_above", peak.yield.depth},
+             {"pressure_over_shear", peak.yield.pressure_over_shear}};
+  return {{"body", peak.body},
+          {"value", peak.von_mises},
+          {"place", numbers(peak.place)},
+          {"yield", yield}};
+}
+
+/// Return the maximum of a member of the comparisons with yield stresses; null without any.
+template <int dim>
+Summary::State largest(const state::ContactState<dim> &state, double state::YieldCheck::*member)
+{
+  Summary::State result;
+  for (const auto &peak : state.stress_peaks)
+    if (peak.yield.yield_stress > 0.)
+      result = std::max(result.is_null() ? 0. : result.get<double>(), peak.yield.*member);
+  return result;
 }
 
 template <int dim>
@@ -157,6 +178,8 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"max_von_mises", state.stress_peak().von_mises},
           {"max_displacement", state.displacement_peak.size},
           {"von_mises", array_of(state.stress_peaks)},
+          {"yield_utilization", largest(state, &state::YieldCheck::utilization)},
+          {"pressure_over_shear_yield", largest(state, &state::YieldCheck::pressure_over_shear)},
           {"active_contacts", state.active_contacts},
           {"weak_contacts", state.weak_contacts},
           {"contact_change_margin", state.contact_change_margin},

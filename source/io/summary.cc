@@ -117,9 +117,10 @@ Json main_values(const Summary::State &state)
   double worst = 0.;
   for (const auto &error : state.at("certificate"))
     worst = std::max(worst, error.get<double>());
-  for (const char *key :
-       {"compliance", "contact_area", "max_pressure", "max_von_mises", "max_displacement"})
-    values[key] = state.at(key);
+  for (const char *key : {"compliance", "contact_area", "max_pressure", "max_von_mises",
+                          "max_displacement", "yield_utilization", "pressure_over_shear_yield"})
+    if (!state.at(key).is_null())
+      values[key] = state.at(key);
   values["worst_certificate"] = worst;
   values["responses"]         = state.at("responses");
   return values;

@@ -44,7 +44,11 @@ ChoiceTable<MakeResponse<dim>> body_responses()
     {"von Mises norm",
      "p-norm of the von Mises stress over one body or all bodies, divided by the p-norm of 1 "
      "[force/length^2]",
-     von_mises_norm<dim>},
+     [](const Parameters &parameters) { return von_mises_norm<dim>(parameters, false); }},
+    {"yield utilization",
+     "von Mises norm of the stress over the 'Yield stress' of its material, which is below the "
+     "maximum. Parts without a yield stress are left out.",
+     [](const Parameters &parameters) { return von_mises_norm<dim>(parameters, true); }},
     {"least scaled Jacobian",
      "quality of the cells of one body or all bodies, for constraints such as >= 0.2: 1 minus the "
      "p-norm of 1 - scaled Jacobian, which is below the minimum",

@@ -1,9 +1,13 @@
+#include <snug/contact/nearest_face.h>
 #include <snug/elasticity/stress.h>
 #include <snug/state/peaks.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 namespace snug::state {
 namespace {
@@ -14,15 +18,14 @@ const double tie = 1e-6;
 template <int dim>
 double order(const dealii::Tensor<1, dim> &x)
 {
-  double result = x[0] + 0.71 * x[1];
-  return dim == 3 ? result + 0.43 * x[dim - 1] : result;
+  return x[0] + 0.71 * x[1] + (dim == 3 ? 0.43 * x[dim - 1] : 0.);
 }
 
-/// A Gauss point with its stress.
+/// A Gauss point with its volume, its stress and its yield stress; 0: none.
 template <int dim>
 struct StressPoint
 {
-  double                 von_mises;
+  double                 von_mises, yield_stress, dV;
   dealii::Tensor<1, dim> place;
 };
 
@@ -46,9 +49,59 @@ std::vector<std::vector<StressPoint<dim>>> stress_points(const StateSolver<dim> 
                                          assembler.thermal_strain(i, state.load_case));
           for (unsigned int q = 0; q < shapes.size(); ++q)
             of_body.push_back(
-              {elasticity::von_mises(stresses[q]), elasticity::value<dim>(shapes[q], X)});
+              {elasticity::von_mises(stresses[q]), assembler.material(i).yield_stress,
+               elasticity::CellPoint<dim>(shapes[q], X, solver.mesh().idealization()).dV,
+               elasticity::value<dim>(shapes[q], X)});
         }
     }
+  return result;
+}
+
+/// Compare the stresses at the @p points of a body with the yield stresses. Collective.
+template <int dim>
+YieldCheck yield_check(const StateSolver<dim>              &solver,
+                       const ContactState<dim>             &state,
+                       const unsigned int                   body,
+                       const std::vector<StressPoint<dim>> &points)
+{
+  YieldCheck result;
+  for (const auto &material : solver.model().bodies[body].materials)
+    if (material.yield_stress > 0. &&
+        (result.yield_stress == 0. || material.yield_stress < result.yield_stress))
+      result.yield_stress = material.yield_stress;
+  if (result.yield_stress == 0.)
+    return result;
+  const faces::FaceShape<dim> shape(solver.mesh().degree());
+  std::vector<unsigned int>   of_body;
+  for (unsigned int face = 0; face < solver.surface().faces().size(); ++face)
+    if (solver.surface().faces()[face].body == body)
+      of_body.push_back(face);
+  std::optional<contact::NearestFace<dim>> faces;
+  if (!of_body.empty())
+    faces.emplace(solver.surface(), of_body, shape, state.surface_positions);
+  for (const auto &point : points)
+    if (point.yield_stress > 0.)
+      {
+        const double utilization = point.von_mises / point.yield_stress;
+        result.utilization       = std::max(result.utilization, utilization);
+        if (utilization <= 1.)
+          continue;
+        result.volume += point.dV;
+        if (faces)
+          result.depth =
+            std::max(result.depth, std::sqrt(faces->closest(point.place).point.squared_distance));
+      }
+  const MPI_Comm communicator = solver.context().communicator();
+  result.utilization          = dealii::Utilities::MPI::max(result.utilization, communicator);
+  result.volume               = dealii::Utilities::MPI::sum(result.volume, communicator);
+  result.depth                = faces ? dealii::Utilities::MPI::max(result.depth, communicator)
+                                      : std::numeric_limits<double>::quiet_NaN();
+  const auto &pairs           = solver.contact(state.load_case).named_pairs();
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    if (pairs[p].slave.body() == body || (!pairs[p].obstacle && pairs[p].master.body() == body))
+      result.pressure_over_shear =
+        std::max(result.pressure_over_shear,
+                 std::sqrt(3.) * state.pairs[p].max_pressure / result.yield_stress);
   return result;
 }
 } // namespace
@@ -78,6 +131,8 @@ std::vector<StressPeak<dim>> stress_peaks(const StateSolver<dim>  &solver,
   for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, result))
     for (unsigned int body = 0; body < points.size(); ++body)
       take(result[body], of_rank[body]);
+  for (unsigned int body = 0; body < points.size(); ++body)
+    result[body].yield = yield_check(solver, state, body, points[body]);
   return result;
 }
 

@@ -215,6 +215,9 @@ def check_lacking_parts(runner, meshes):
         done = runner.run(path, "--validate", "--leave-out", kind)
         runner.require(f"deck without {kind}", done.returncode == 0 and
                        f"left out: *{kind.upper()}" in done.stdout, done.stdout[:400])
+    done = runner.run("--translate", path)
+    runner.require("yield stress of *PLASTIC", done.returncode == 0 and
+                   "set Yield stress = 5\n" in done.stdout, done.stdout[:2000])
     done = runner.run(path, "--validate", "--leave-out", "plastic, tie")
     runner.require("unknown kind", done.returncode == 2 and
                    "the deck has no 'tie'" in done.stdout, done.stdout)

@@ -16,7 +16,7 @@ struct DeckModel
     std::string           name;
     unsigned long         line;
     std::optional<double> youngs_modulus, poissons_ratio;
-    double                density = 0., expansion = 0.;
+    double                density = 0., expansion = 0., yield_stress = 0.;
   };
 
   /// A displacement component of a set of faces [length].

@@ -14,6 +14,7 @@ struct Material
   double poissons_ratio = 0.3; ///< in (-1, 0.5)
   double density        = 0.;  ///< [mass / length^3], for gravity
   double expansion      = 0.;  ///< thermal strain per temperature [1 / temperature]
+  double yield_stress = 0.; ///< in tension, only compared with stresses [force / length^2]; 0: none
 
   void declare(Entries &entries);
   void check(const SectionCheck &section) const;

@@ -28,11 +28,8 @@ class VonMisesPower
 public:
   using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-  /// p >= 1 and scale > 0 [force / length^2].
-  VonMisesPower(unsigned int              degree,
-                const mesh::Idealization &idealization,
-                double                    p,
-                double                    scale);
+  /// p >= 1.
+  VonMisesPower(unsigned int degree, const mesh::Idealization &idealization, double p);
 
   /// Return the maximum sigma_vM at the Gauss points.
   double largest(const Nodes              &X,
@@ -40,16 +37,18 @@ public:
                  const Nodes              &u,
                  const ThermalStrain<dim> &thermal = {}) const;
 
-  /// Return S.
+  /// Return S, with a scale > 0 [force / length^2].
   double value(const Nodes              &X,
                const Material           &material,
                const Nodes              &u,
+               double                    scale,
                const ThermalStrain<dim> &thermal = {}) const;
 
   /// Add factor * dS/du_a and factor * dS/dX_a to the gradients.
   void add_gradients(const Nodes              &X,
                      const Material           &material,
                      const Nodes              &u,
+                     double                    scale,
                      double                    factor,
                      Nodes                    &by_u,
                      Nodes                    &by_X,
@@ -62,7 +61,7 @@ private:
                                             const ThermalStrain<dim> &thermal) const;
 
   const mesh::Idealization                    idealization;
-  const double                                p, scale;
+  const double                                p;
   const std::vector<mesh::LagrangePoint<dim>> gauss;
 };
 } // namespace snug::elasticity

@@ -85,10 +85,12 @@ std::unique_ptr<Response<dim>> reaction_moment(const ResponseParameters &paramet
 /**
  * Return the response J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over one
  * body or all bodies: the p-norm of the von Mises stress, divided by the p-norm of 1. J grows with
- * p to the maximum stress at the Gauss points.
+ * p to the maximum stress at the Gauss points. With @p over_yield, sigma_vM is divided by the yield
+ * stress of its material, and cells without a yield stress are left out.
  */
 template <int dim>
-std::unique_ptr<Response<dim>> von_mises_norm(const ResponseParameters &parameters);
+std::unique_ptr<Response<dim>> von_mises_norm(const ResponseParameters &parameters,
+                                              bool                      over_yield);
 
 /**
  * Return the response J = 1 - (sum (1 - q)^p)^(1/p) with the scaled Jacobians q at the nodes and

@@ -140,6 +140,19 @@ struct PairState
   unsigned int           rows = 0, active_contacts = 0;
 };
 
+/// Elastic stresses of a body compared with its yield stress, see stress_peaks().
+struct YieldCheck
+{
+  double yield_stress = 0.; ///< minimum over the regions of the body that have one; 0: none
+  double utilization  = 0.; ///< maximum of the von Mises stress over the yield stress of its region
+  double volume       = 0.; ///< where the von Mises stress exceeds the yield stress [length^3]
+  /// maximum distance from a point there to the contact faces of the body; NaN without any [length]
+  double depth = 0.;
+  /// maximum nodal pressure of the pairs of the body over the yield stress in shear, yield_stress /
+  /// sqrt(3)
+  double pressure_over_shear = 0.;
+};
+
 /// Maximum von Mises stress of a body, see stress_peaks().
 template <int dim>
 struct StressPeak
@@ -147,6 +160,7 @@ struct StressPeak
   std::string            body;
   double                 von_mises = 0.; ///< [force / length^2]
   dealii::Tensor<1, dim> place;          ///< in the undeformed body [length]
+  YieldCheck             yield = {};
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)

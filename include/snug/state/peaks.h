@@ -7,7 +7,8 @@ namespace snug::state {
 /**
  * Return the maximum von Mises stress of each body at the Gauss points of the stiffness. Among
  * points whose stresses differ by round-off alone, such as points that mirror each other, the place
- * is the first point along a fixed direction, so that it does not depend on the ranks. Collective.
+ * is the first point along a fixed direction, so that it does not depend on the ranks. Stresses are
+ * compared with yield stresses at the same points. The pairs of @p state are read. Collective.
  */
 template <int dim>
 std::vector<StressPeak<dim>> stress_peaks(const StateSolver<dim>  &solver,

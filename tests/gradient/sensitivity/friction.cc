@@ -23,7 +23,7 @@ TestScene<dim> pushed_punch(unsigned int               n_cells,
   scene.bodies[0].loads.clear();
   scene.bodies[1].loads[face_index(0, 1)].pressure = 0.5;
   scene.bodies[0].material                         = {1000., 0.3, 0.2};
-  scene.bodies[1].material                         = {800., 0.25, 0.7};
+  scene.bodies[1].material                         = {800., 0.25, 0.7, 0., 20.};
   supports::Support<dim> down{0, face_index(dim - 1, 1), dim - 1, {}, "down"}, aside = down,
                                                                                along = down;
   aside.component                                                                    = 0;

@@ -51,9 +51,9 @@ void check_all_responses(const std::string &basis, contact::Method method = cont
 {
   auto given                      = two_blocks<dim>(dim == 2 ? 6 : 3, 0, 3.);
   given.bodies[1].cells           = std::vector<unsigned int>(dim, 4);
-  given.bodies[1].material        = {800., 0.25, 0.7};
+  given.bodies[1].material        = {800., 0.25, 0.7, 0., 20.};
   given.bodies[0].material        = {1000., 0.3, 0.2};
-  given.bodies[1].core            = {900., 0.3, 0.4};
+  given.bodies[1].core            = {900., 0.3, 0.4, 0., 30.};
   given.bodies[1].core_from       = 0.5;
   given.solver.relative_tolerance = 1e-12;
   given.method                    = method;

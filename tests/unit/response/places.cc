@@ -15,7 +15,7 @@ TestScene<dim> plain_scene(unsigned int degree)
   auto scene                    = two_blocks<dim>(2, 3, 0.);
   scene.degree                  = degree;
   scene.bodies[0].material      = {1000., 0.3, 2.};
-  scene.bodies[1].material      = {500., 0.2, 3.};
+  scene.bodies[1].material      = {500., 0.2, 3., 0., 40.};
   scene.bodies[1].refined_below = 0.45;
   return scene;
 }
@@ -195,6 +195,15 @@ void check_bodies(unsigned int degree)
       parameters.exponent = p;
       EXPECT_NEAR(value(problem, state, parameters), stress, 1e-11 * stress);
     }
+  // The punch has no yield stress and is left out.
+  parameters.quantity = "yield utilization";
+  for (const std::string body : {"foundation", ""})
+    {
+      parameters.body = body;
+      EXPECT_NEAR(value(problem, state, parameters), stress / 40., 1e-11 * stress);
+    }
+  parameters.body = "punch";
+  EXPECT_THROW(response::make_response<dim>(parameters)->check(problem.solver), InputError);
 }
 
 TEST(Response, OfOneBody)

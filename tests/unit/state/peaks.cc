@@ -64,13 +64,33 @@ TEST(StressPeaks, AHangingBarIsStressedMostAtItsHighestGaussPoints)
   EXPECT_LT((peak.place - dealii::Tensor<1, 3>({first, first, first})).norm(), 1e-12);
 }
 
+TEST(StressPeaks, ABarYieldsWhereItsForceExceedsTheLimit)
+{
+  // sigma = b (L - x) = 5 (2 - x) exceeds 5 in half of the volume of 2.
+  auto scene                              = bar<3>(2);
+  scene.bodies[0].body_force[0]           = 5.;
+  scene.bodies[0].material.poissons_ratio = 0.;
+  scene.bodies[0].material.yield_stress   = 5.;
+  Problem<3> problem(scene);
+  const auto peak = problem.solve().stress_peak();
+  EXPECT_NEAR(peak.yield.utilization, peak.von_mises / 5., 1e-12);
+  EXPECT_NEAR(peak.yield.volume, 1., 1e-12);
+  EXPECT_TRUE(std::isnan(peak.yield.depth)); // no contact
+  EXPECT_EQ(peak.yield.pressure_over_shear, 0.);
+}
+
 TEST(StressPeaks, DoNotDependOnRanksAndUnits)
 {
   // A symmetric punch has its peak twice.
-  const auto scene = two_blocks<2>(6, 5, 3.);
-  auto       other = scene;
+  auto scene = two_blocks<2>(6, 5, 3.);
+  for (auto &body : scene.bodies)
+    body.material.yield_stress = 10.;
+  auto other = scene;
   for (auto &body : other.bodies)
-    body.material.youngs_modulus *= 1e6;
+    {
+      body.material.youngs_modulus *= 1e6;
+      body.material.yield_stress *= 1e6;
+    }
   other.bodies[0].loads[face_index(1, 1)].pressure *= 1e6;
   Problem<2> problem(scene), alone(scene, MPI_COMM_SELF), scaled(other);
   const auto state = problem.solve(), of_one = alone.solve(), of_units = scaled.solve();
@@ -84,6 +104,17 @@ TEST(StressPeaks, DoNotDependOnRanksAndUnits)
       EXPECT_LT(relative_difference(of_units.stress_peaks[body].von_mises, 1e6 * peak.von_mises),
                 1e-7);
       EXPECT_LT((of_units.stress_peaks[body].place - peak.place).norm(), 1e-12);
+      EXPECT_GT(peak.yield.volume, 0.);
+      for (const auto *other_yield :
+           {&of_one.stress_peaks[body].yield, &of_units.stress_peaks[body].yield})
+        {
+          EXPECT_LT(relative_difference(other_yield->utilization, peak.yield.utilization), 1e-7);
+          EXPECT_LT(relative_difference(other_yield->volume, peak.yield.volume), 1e-12);
+          EXPECT_NEAR(other_yield->depth, peak.yield.depth, 1e-12);
+          EXPECT_LT(relative_difference(other_yield->pressure_over_shear,
+                                        peak.yield.pressure_over_shear),
+                    1e-7);
+        }
     }
   EXPECT_LT((of_one.displacement_peak.displacement - state.displacement_peak.displacement).norm(),
             1e-7 * state.displacement_peak.size);

@@ -38,7 +38,7 @@ struct TestBody
   double                    radius        = 0.;    ///< 0: flat
   bool                      sampled       = false; ///< contact sees the circle, not facets
   double                    refined_below = 0.;
-  elasticity::Material      material{1000., 0.3};
+  elasticity::Material      material{1000., 0.3, 0., 0., 25.};
   elasticity::Material      core{50., 0.4}; ///< of coarse cells beyond
   double                    core_from   = std::numeric_limits<double>::max();
   elasticity::Formulation   formulation = elasticity::Formulation::standard;
