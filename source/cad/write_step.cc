@@ -8,6 +8,7 @@
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Interface_Static.hxx>
@@ -146,12 +147,29 @@ Handle(Geom2d_BSplineCurve) curve_through(const std::vector<dealii::Point<2>> &p
   return through.Curve();
 }
 
+/// Return the surface of a face, in the ranges of its parameters.
+Handle(Geom_Surface) whole_surface(const SplineFace &face)
+{
+  if (face.sweep == SplineFace::Sweep::none)
+    return surface_of(face);
+  const gp_Dir direction(face.direction[0], face.direction[1], face.direction[2]);
+  const auto   curve = curve_of(face);
+  const double first = curve->FirstParameter(), last = curve->LastParameter();
+  if (face.sweep == SplineFace::Sweep::extruded)
+    return new Geom_RectangularTrimmedSurface(new Geom_SurfaceOfLinearExtrusion(curve, direction),
+                                              first, last, 0., face.extent);
+  Handle(Geom_Surface) surface =
+    new Geom_SurfaceOfRevolution(curve, gp_Ax1(point(face.centre), direction));
+  if (face.extent > (1. - 1e-9) * 2. * M_PI)
+    return surface;
+  return new Geom_RectangularTrimmedSurface(surface, 0., face.extent, first, last);
+}
+
 /// Return the face within its loops. The curves of its edges deviate from the curves of parameters
 /// by at most a millionth of the ranges of the parameters.
-TopoDS_Face trimmed(const SplineFace &face)
+TopoDS_Face trimmed(const SplineFace &face, const Handle(Geom_Surface) & surface)
 {
-  const Handle(Geom_BSplineSurface) surface = surface_of(face);
-  double ranges                             = 0.;
+  double ranges = 0.;
   for (const auto &axis : face.axes)
     ranges += axis.breaks.back() - axis.breaks.front();
   BRepBuilderAPI_MakeFace make;
@@ -174,30 +192,11 @@ TopoDS_Face trimmed(const SplineFace &face)
   return make.Face();
 }
 
-TopoDS_Face swept(const SplineFace &face, const double tolerance)
-{
-  const auto curve = curve_of(face);
-  Handle(Geom_Surface) surface;
-  if (face.sweep == SplineFace::Sweep::revolved)
-    {
-      surface = new Geom_SurfaceOfRevolution(curve, gp_Ax1(gp_Pnt(0., 0., 0.), gp_Dir(0., 1., 0.)));
-      return BRepBuilderAPI_MakeFace(surface, tolerance);
-    }
-  surface = new Geom_SurfaceOfLinearExtrusion(curve, gp_Dir(0., 0., 1.));
-  return BRepBuilderAPI_MakeFace(surface, curve->FirstParameter(), curve->LastParameter(), 0.,
-                                 face.thickness, tolerance);
-}
-
 TopoDS_Face face_of(const SplineFace &face)
 {
-  const double tolerance = 1e-7;
-  TopoDS_Face  result;
-  if (face.sweep != SplineFace::Sweep::none)
-    result = swept(face, tolerance);
-  else if (face.loops.empty())
-    result = BRepBuilderAPI_MakeFace(surface_of(face), tolerance);
-  else
-    result = trimmed(face);
+  const auto  surface = whole_surface(face);
+  TopoDS_Face result =
+    face.loops.empty() ? BRepBuilderAPI_MakeFace(surface, 1e-7).Face() : trimmed(face, surface);
   if (face.reversed)
     result.Reverse();
   return result;

@@ -39,23 +39,21 @@ template <int dim>
 class Fit
 {
 public:
-  using Chart  = shape::FaceChart<dim>;
-  using Flat   = typename Chart::Flat;
+  using Flat   = dealii::Tensor<1, dim - 1>;
   using Vector = dealii::Tensor<1, dim>;
   using Rows   = typename SplineSurface<dim>::Rows;
 
-  Fit(const Chart &chart, const std::vector<Vector> &positions) : chart(chart), positions(positions)
+  explicit Fit(const CoordinatePoints<dim> &face) : face(face)
   {
     for (unsigned int a = 0; a < dim - 1; ++a)
       {
         std::vector<double> breaks;
         for (unsigned int i = 0; i <= closed_spans; ++i)
           breaks.push_back(double(i) / closed_spans);
-        if (!chart.is_closed(a))
+        if (!face.closed[a])
           breaks = {0., 1.};
-        surface.axes.emplace_back(breaks, surface.degree, chart.is_closed(a));
+        surface.axes.emplace_back(breaks, surface.degree, face.closed[a]);
       }
-    surface.points.assign(surface.n_points(), mean());
   }
 
   SplineSurface<dim> surface;
@@ -75,29 +73,17 @@ private:
     std::vector<Vector> targets;
   };
 
-  const Chart               &chart;
-  const std::vector<Vector> &positions;
-  std::vector<double>        deviations; ///< per span, the first axis fastest
+  const CoordinatePoints<dim> &face;
+  std::vector<double>          deviations; ///< per span, the first axis fastest
 
-  Vector                    mean() const;
   unsigned int              n_spans() const;
   std::vector<unsigned int> indices_of_span(unsigned int span) const;
   Flat                      in_span(unsigned int span, const Flat &part) const;
   Flat                      as_lengths(const Flat &fractions) const;
-  Data                      data(const Vector &centre) const;
-  double                    distance(const typename Chart::Place &place, const Vector &x) const;
+  Data                      data() const;
   double
   jump(unsigned int span, unsigned int axis, const std::vector<shape::Combination> &thirds) const;
 };
-
-template <int dim>
-dealii::Tensor<1, dim> Fit<dim>::mean() const
-{
-  Vector result;
-  for (const auto &position : positions)
-    result += position / double(positions.size());
-  return result;
-}
 
 template <int dim>
 unsigned int Fit<dim>::n_spans() const
@@ -139,13 +125,13 @@ typename Fit<dim>::Flat Fit<dim>::as_lengths(const Flat &fractions) const
 {
   Flat result;
   for (unsigned int a = 0; a < dim - 1; ++a)
-    result[a] = fractions[a] * chart.range()[a];
+    result[a] = fractions[a] * face.range[a];
   return result;
 }
 
-/// Return the functions and the positions, relative to @p centre, at the Gauss points on the face.
+/// Return the functions and the positions at the Gauss points on the face.
 template <int dim>
-typename Fit<dim>::Data Fit<dim>::data(const Vector &centre) const
+typename Fit<dim>::Data Fit<dim>::data() const
 {
   Data       result;
   const auto gauss = dealii::QGauss<dim - 1>(surface.degree + 1).get_points();
@@ -153,10 +139,10 @@ typename Fit<dim>::Data Fit<dim>::data(const Vector &centre) const
     for (const auto &part : gauss)
       {
         const Flat at = in_span(span, part);
-        if (const auto place = chart.find(as_lengths(at)))
+        if (const auto x = face.point(as_lengths(at)))
           {
             result.rows.push_back(surface.functions(at));
-            result.targets.push_back(place->value(positions) - centre);
+            result.targets.push_back(*x);
           }
       }
   return result;
@@ -167,8 +153,11 @@ typename Fit<dim>::Data Fit<dim>::data(const Vector &centre) const
 template <int dim>
 void Fit<dim>::solve()
 {
-  const Vector                   centre      = mean();
-  const Data                     points      = data(centre);
+  const Data points = data();
+  Vector     centre;
+  for (const auto &x : points.targets)
+    centre += x / double(points.targets.size());
+  surface.points.resize(surface.n_points(), centre); // of a coarser surface: no change
   const auto                     smooth_rows = surface.second_differences();
   const unsigned int             n           = surface.points.size();
   dealii::DynamicSparsityPattern pattern(n);
@@ -185,7 +174,7 @@ void Fit<dim>::solve()
     for (const auto &[i, value] : points.rows[r])
       {
         for (unsigned int d = 0; d < dim; ++d)
-          b[d](i) += value * points.targets[r][d];
+          b[d](i) += value * (points.targets[r][d] - centre[d]);
         for (const auto &[j, other] : points.rows[r])
           A.add(i, j, value * other);
       }
@@ -214,29 +203,6 @@ void Fit<dim>::solve()
     }
 }
 
-/// Return the distance of @p x from the face of the mesh with @p place: the distance from the point
-/// at the place, or from the point after one step of Gauss and Newton towards @p x.
-template <int dim>
-double Fit<dim>::distance(const typename Chart::Place &place, const Vector &x) const
-{
-  const auto                 values   = place.shape();
-  const Vector               residual = x - place.interpolated(positions, values);
-  const auto                 t        = faces::tangents<dim>(values, *place.points, positions);
-  dealii::Tensor<2, dim - 1> G;
-  Flat                       rhs;
-  for (unsigned int i = 0; i < dim - 1; ++i)
-    {
-      rhs[i] = t[i] * residual;
-      for (unsigned int j = 0; j < dim - 1; ++j)
-        G[i][j] = t[i] * t[j];
-    }
-  if (!(determinant(G) > 0.))
-    return residual.norm();
-  auto closer = place;
-  closer.xi += invert(G) * rhs;
-  return std::min(residual.norm(), (x - closer.value(positions)).norm());
-}
-
 template <int dim>
 void Fit<dim>::measure()
 {
@@ -250,8 +216,8 @@ void Fit<dim>::measure()
         for (unsigned int a = 0; a < dim - 1; ++a)
           part[a] = uniform(random);
         const Flat at = in_span(span, part);
-        if (const auto place = chart.find(as_lengths(at)))
-          deviations[span] = std::max(deviations[span], distance(*place, surface.value(at)));
+        if (const auto x = face.point(as_lengths(at)))
+          deviations[span] = std::max(deviations[span], surface.distance(*x, at));
       }
   surface.deviation = *std::max_element(deviations.begin(), deviations.end());
 }
@@ -332,7 +298,7 @@ SplineSurface<dim> Fit<dim>::refined(const double tolerance, const unsigned int 
   SplineSurface<dim> finer;
   for (unsigned int a = 0; a < dim - 1; ++a)
     finer.axes.emplace_back(divided(surface.axes[a].breaks(), parts[a]), surface.degree,
-                            chart.is_closed(a));
+                            face.closed[a]);
   for (unsigned int i = 0; i < finer.n_points(); ++i)
     {
       Flat         at;
@@ -346,12 +312,11 @@ SplineSurface<dim> Fit<dim>::refined(const double tolerance, const unsigned int 
 } // namespace
 
 template <int dim>
-SplineSurface<dim> fit_splines(const shape::FaceChart<dim>               &chart,
-                               const std::vector<dealii::Tensor<1, dim>> &positions,
-                               const double                               tolerance,
-                               const unsigned int                         most_points)
+SplineSurface<dim> fit_splines(const CoordinatePoints<dim> &face,
+                               const double                 tolerance,
+                               const unsigned int           most_points)
 {
-  Fit<dim>           fit(chart, positions);
+  Fit<dim>           fit(face);
   SplineSurface<dim> best;
   while (true)
     {
@@ -370,11 +335,6 @@ SplineSurface<dim> fit_splines(const shape::FaceChart<dim>               &chart,
     }
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                  \
-  template SplineSurface<dim> fit_splines(const shape::FaceChart<dim> &,                       \
-                                          const std::vector<dealii::Tensor<1, dim>> &, double, \
-                                          unsigned int);
-SNUG_INSTANTIATE(2)
-SNUG_INSTANTIATE(3)
-#undef SNUG_INSTANTIATE
+template SplineSurface<2> fit_splines(const CoordinatePoints<2> &, double, unsigned int);
+template SplineSurface<3> fit_splines(const CoordinatePoints<3> &, double, unsigned int);
 } // namespace snug::io

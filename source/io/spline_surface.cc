@@ -1,5 +1,7 @@
 #include <snug/io/spline_surface.h>
 
+#include <algorithm>
+
 namespace snug::io {
 template <int dim>
 std::vector<std::pair<unsigned int, double>>
@@ -28,6 +30,28 @@ dealii::Tensor<1, dim> SplineSurface<dim>::value(const dealii::Tensor<1, dim - 1
   for (const auto &[i, value] : functions(fractions))
     result += value * points[i];
   return result;
+}
+
+template <int dim>
+double SplineSurface<dim>::distance(const dealii::Tensor<1, dim>     &x,
+                                    const dealii::Tensor<1, dim - 1> &fractions) const
+{
+  auto                                off = x - value(fractions);
+  std::vector<dealii::Tensor<1, dim>> along;
+  for (unsigned int a = 0; a < dim - 1; ++a)
+    {
+      auto before = fractions, after = fractions;
+      before[a]    = std::max(0., fractions[a] - 1e-5);
+      after[a]     = std::min(1., fractions[a] + 1e-5);
+      auto tangent = value(after) - value(before);
+      for (const auto &other : along)
+        tangent -= (tangent * other) * other;
+      if (tangent.norm() > 0.)
+        along.push_back(tangent / tangent.norm());
+    }
+  for (const auto &tangent : along)
+    off -= (off * tangent) * tangent;
+  return off.norm();
 }
 
 template <int dim>
@@ -68,6 +92,28 @@ typename SplineSurface<dim>::Rows SplineSurface<dim>::second_differences() const
   return rows;
 }
 
-template struct SplineSurface<2>;
-template struct SplineSurface<3>;
+template <int dim>
+CoordinatePoints<dim> points_of(const shape::FaceChart<dim>               &chart,
+                                const std::vector<dealii::Tensor<1, dim>> &positions)
+{
+  CoordinatePoints<dim> result;
+  result.range = chart.range();
+  for (unsigned int a = 0; a < dim - 1; ++a)
+    result.closed[a] = chart.is_closed(a);
+  result.point = [&](const auto &at) -> std::optional<dealii::Tensor<1, dim>> {
+    const auto place = chart.find(at);
+    if (!place)
+      return {};
+    return place->value(positions);
+  };
+  return result;
+}
+
+#define SNUG_INSTANTIATE(dim)                                             \
+  template struct SplineSurface<dim>;                                     \
+  template CoordinatePoints<dim> points_of(const shape::FaceChart<dim> &, \
+                                           const std::vector<dealii::Tensor<1, dim>> &);
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::io

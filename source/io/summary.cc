@@ -309,6 +309,7 @@ std::string Summary::json() const
     text["units"][quantity] = unit;
   for (const auto &face : profile)
     text["profile"].push_back({{"face", face.name},
+                               {"kind", face.kind},
                                {"spans", face.spans},
                                {"deviation", face.deviation},
                                {"asked", face.asked}});

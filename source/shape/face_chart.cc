@@ -70,13 +70,13 @@ smooth_pieces(const std::vector<dealii::Tensor<1, 2>> &points)
 } // namespace
 
 template <int dim>
-FaceChart<dim>::FaceChart(const ShapedFace<dim> &face, const FaceCoordinates<dim> &coordinates)
+FaceChart<dim>::FaceChart(const ShapedFace<dim> &face, const std::vector<FaceCoordinate> &axes)
   : face(face)
 {
   for (unsigned int a = 0; a < dim - 1; ++a)
     {
-      ranges[a] = coordinates.axis(a).range * coordinates.axis(a).unit;
-      closed[a] = coordinates.axis(a).closed;
+      ranges[a] = axes[a].range * axes[a].unit;
+      closed[a] = axes[a].closed;
     }
   for (const auto &one : face.surface().faces())
     {
@@ -89,7 +89,7 @@ FaceChart<dim>::FaceChart(const ShapedFace<dim> &face, const FaceCoordinates<dim
           Flat flat;
           for (unsigned int a = 0; a < dim - 1; ++a)
             {
-              flat[a] = coordinates.axis(a).values[point] * coordinates.axis(a).unit;
+              flat[a] = axes[a].values[point] * axes[a].unit;
               if (closed[a] && !patch.flat.empty())
                 flat[a] -= ranges[a] * std::round((flat[a] - patch.flat.front()[a]) / ranges[a]);
             }

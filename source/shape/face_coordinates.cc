@@ -188,7 +188,8 @@ void FaceCoordinates<dim>::set_angles(const FacePoints &points, const ShapeParam
   const auto   along    = meridian_length(points, found.front(), start);
   if (!of_angle || !along)
     fail("Face", parameters.face, "must be connected for Coordinates = angle");
-  axes = {*of_angle};
+  own_line = found.front();
+  axes     = {*of_angle};
   if (dim == 3)
     axes.push_back(*along);
 }
@@ -218,7 +219,8 @@ void FaceCoordinates<dim>::set_arc_lengths(const FacePoints      &points,
   if (!along)
     throw bad_entry(parameters.path("Face"), parameters.face,
                     "must be connected for Coordinates = arc length");
-  axes = {*along};
+  own_line.direction = *direction;
+  axes               = {*along};
   if (dim == 3)
     axes.push_back(position_along(points, *direction));
 }

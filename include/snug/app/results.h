@@ -7,6 +7,9 @@
 #include <snug/io/summary.h>
 
 namespace snug::app {
+template <int dim>
+class DesignedFace;
+
 /// Return the output directory of a scene and, if there are several load cases, their directories.
 std::vector<std::string> output_directories(const scene::Scene &scene);
 
@@ -107,8 +110,8 @@ private:
   void                   count_rows();
   void                   export_first_qp(const States &states);
   std::vector<MeshError> estimate(const States &states);
-  /// Write the shaped faces as a STEP file. Collective.
-  void export_profile(const std::vector<double> &design);
+  /// Write the shaped faces as a STEP file. For one rank.
+  void export_profile(const std::vector<DesignedFace<dim>> &designed);
   /// Print the faces of the STEP file in the summary, and warnings after them.
   void report_profile(std::vector<std::string> lines);
   /// Write the 'Meshes' of the scene at the positions of @p state. Collective.

@@ -16,16 +16,16 @@ struct SplineSpans
 
 /**
  * A face with the surface S(s, t) = sum_ij B_i(s) B_j(t) c_ij of B-splines with simple knots, or
- * the face that a plane curve S(s) describes.
+ * the face that a curve S(s) describes.
  */
 struct SplineFace
 {
-  /// Face of a plane curve.
+  /// Face of a curve.
   enum class Sweep
   {
     none,
-    extruded, ///< along z, from 0 to thickness
-    revolved  ///< about the axis y, a full turn
+    extruded, ///< along the direction; the parameters are (s, length)
+    revolved  ///< about the axis through the centre; the parameters are (angle, s)
   };
 
   std::string                   name;
@@ -33,10 +33,12 @@ struct SplineFace
   std::vector<SplineSpans>      axes;   ///< one of a curve, two of a surface
   std::vector<dealii::Point<3>> points; ///< control points, the first axis fastest
   Sweep                         sweep     = Sweep::none;
-  double                        thickness = 1.;    ///< [length]
-  bool                          reversed  = false; ///< the outward normal is opposite to S_s x S_t
+  dealii::Point<3>              centre    = {};    ///< of the axis of a revolution
+  dealii::Point<3>              direction = {};    ///< of the sweep, a unit vector
+  double                        extent    = 1.;    ///< of the sweep [length or radian]
+  bool                          reversed  = false; ///< the outward normal is opposite to S_u x S_v
   /// The loops that bound the face, the outer one first, each a list of smooth pieces through
-  /// points (s, t). Without loops, the face has the whole rectangle of s and t.
+  /// parameters (u, v) = (s, t), or those of the sweep. Without loops, the face has all parameters.
   std::vector<std::vector<std::vector<dealii::Point<2>>>> loops = {};
 };
 

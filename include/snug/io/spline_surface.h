@@ -4,6 +4,8 @@
 #include <snug/shape/face_chart.h>
 #include <snug/shape/spline.h>
 
+#include <functional>
+
 namespace snug::io {
 /**
  * A cubic B-spline curve (2D) or surface (3D) over the coordinates of a face, with the control
@@ -26,6 +28,11 @@ struct SplineSurface
 
   dealii::Tensor<1, dim> value(const dealii::Tensor<1, dim - 1> &fractions) const;
 
+  /// Return the distance of a point near value(@p fractions) from the surface, to second order: the
+  /// part of the difference at right angles to the surface.
+  double distance(const dealii::Tensor<1, dim>     &x,
+                  const dealii::Tensor<1, dim - 1> &fractions) const;
+
   unsigned int n_points() const;
 
   /// Rows of a matrix of as many columns as control points.
@@ -38,9 +45,26 @@ struct SplineSurface
   unsigned int n_spans(unsigned int axis) const { return axes[axis].breaks().size() - 1; }
 };
 
+/// A face of a design, or the curve of a face that is swept, as points over coordinates.
+template <int dim>
+struct CoordinatePoints
+{
+  using Flat = dealii::Tensor<1, dim - 1>;
+
+  Flat                      range; ///< of the coordinates, from 0
+  std::array<bool, dim - 1> closed;
+  /// function that returns the point at coordinates, or nothing outside of the face
+  std::function<std::optional<dealii::Tensor<1, dim>>(const Flat &)> point;
+};
+
+/// Return the points of the surface that contact uses: the interpolation of its @p positions, which
+/// are positions of the points of the chart in the design. The arguments must outlive the result.
+template <int dim>
+CoordinatePoints<dim> points_of(const shape::FaceChart<dim>               &chart,
+                                const std::vector<dealii::Tensor<1, dim>> &positions);
+
 /**
- * Return the B-spline surface of a designed face. The face is the surface that contact uses: the
- * interpolation of its @p positions, which are positions of the points of the chart in the design.
+ * Return the B-spline surface of a designed face.
  *
  * Each knot span has 4 x 4 Gauss points, of which those on the face determine the control points by
  * least squares. Control points of spans without a part of the face continue the surface with
@@ -50,10 +74,8 @@ struct SplineSurface
  * the surface has @p most_points control points.
  */
 template <int dim>
-SplineSurface<dim> fit_splines(const shape::FaceChart<dim>               &chart,
-                               const std::vector<dealii::Tensor<1, dim>> &positions,
-                               double                                     tolerance,
-                               unsigned int                               most_points);
+SplineSurface<dim>
+fit_splines(const CoordinatePoints<dim> &face, double tolerance, unsigned int most_points);
 } // namespace snug::io
 
 #endif

@@ -126,7 +126,8 @@ struct Summary
   struct ProfileFace
   {
     std::string               name;
-    std::vector<unsigned int> spans;                          ///< of B-splines, per direction
+    std::vector<unsigned int> spans;          ///< of B-splines, per direction
+    std::string               kind      = {}; ///< "curve" that is swept, or "surface"
     double                    deviation = none, asked = none; ///< maximum [length]
   };
 

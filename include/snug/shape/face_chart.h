@@ -54,7 +54,12 @@ public:
   using Piece = std::vector<Flat>; ///< points from one end to the other
   using Loop  = std::vector<Piece>;
 
-  FaceChart(const ShapedFace<dim> &face, const FaceCoordinates<dim> &coordinates);
+  /// Construct the chart of the coordinates @p axes, dim - 1 of them.
+  FaceChart(const ShapedFace<dim> &face, const std::vector<FaceCoordinate> &axes);
+
+  FaceChart(const ShapedFace<dim> &face, const FaceCoordinates<dim> &coordinates)
+    : FaceChart(face, coordinates.all_axes())
+  {}
 
   /// Return the ranges of the coordinates [length].
   const Flat &range() const { return ranges; }

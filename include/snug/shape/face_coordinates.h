@@ -31,6 +31,11 @@ public:
 
   const FaceCoordinate &axis(unsigned int a) const { return axes[a]; }
 
+  const std::vector<FaceCoordinate> &all_axes() const { return axes; }
+
+  /// Return the axis of the angle, or the direction of the extrusion of a face with arc lengths.
+  const Axis &line() const { return own_line; }
+
   /// Return the axes x, y, z of the coordinates of a projection.
   const std::vector<unsigned int> &projection_axes() const { return kept_axes; }
 
@@ -54,6 +59,7 @@ private:
   Coordinates                 chosen;
   std::vector<unsigned int>   kept_axes;
   std::vector<FaceCoordinate> axes;
+  Axis                        own_line;
 };
 
 /// Return the mean of unit vectors over a face as a unit vector.

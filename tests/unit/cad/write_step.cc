@@ -223,7 +223,8 @@ TEST(WriteStep, ClosedCurvesAreSweptToTubes)
 {
   auto curve      = closed_curve("ring.outer", 16);
   curve.sweep     = SplineFace::Sweep::extruded;
-  curve.thickness = 2.;
+  curve.direction = {0., 0., 1.};
+  curve.extent    = 2.;
   SplineFace tube = closed_curve("tube.outer", 16);
   tube.axes.push_back(open);
   tube.points.clear();
@@ -245,6 +246,7 @@ TEST(WriteStep, ClosedCurvesAreSweptToTubes)
     }
 }
 
+/// A full cone, a sixth of it, and the half of this sixth with 0 < s < 2 within a loop.
 TEST(WriteStep, RevolvedCurvesGiveSurfacesOfRevolution)
 {
   SplineFace cone;
@@ -252,10 +254,25 @@ TEST(WriteStep, RevolvedCurvesGiveSurfacesOfRevolution)
   cone.degree = 3;
   cone.axes   = {open};
   for (const double s : greville)
-    cone.points.emplace_back(1. + 0.5 * s, s, 0.);
-  cone.sweep = SplineFace::Sweep::revolved;
-  EXPECT_NEAR(area_of(written({cone}).at("shaft.cone")), M_PI * (1. + 3.) * std::sqrt(16. + 4.),
-              1e-6);
+    cone.points.emplace_back(8. + 0.5 * s, s, 0.);
+  cone.sweep      = SplineFace::Sweep::revolved;
+  cone.centre     = {7., 0., 0.};
+  cone.direction  = {0., 1., 0.};
+  cone.extent     = 2. * M_PI;
+  const auto part = [](const double r, const double s) {
+    return M_PI * (1. + r) * std::hypot(s, 0.5 * s);
+  };
+  EXPECT_NEAR(area_of(written({cone}).at("shaft.cone")), part(3., 4.), 1e-6);
+  cone.extent     = M_PI / 3.;
+  const auto face = written({cone}).at("shaft.cone");
+  EXPECT_NEAR(area_of(face), part(3., 4.) / 6., 1e-6);
+  // A rotation about y turns x to -z.
+  const gp_Pnt last = BRepAdaptor_Surface(face).Value(M_PI / 3., 0.);
+  EXPECT_NEAR(last.X(), 7. + std::cos(M_PI / 3.), 1e-9);
+  EXPECT_NEAR(last.Z(), -std::sin(M_PI / 3.), 1e-9);
+  const dealii::Point<2> a(0., 0.), b(cone.extent, 0.), c(cone.extent, 2.), d(0., 2.);
+  cone.loops = {{{a, b}, {b, c}, {c, d}, {d, a}}};
+  EXPECT_NEAR(area_of(written({cone}).at("shaft.cone")), part(2., 2.) / 6., 1e-6);
 }
 
 TEST(WriteStep, LoopsTrimFaces)

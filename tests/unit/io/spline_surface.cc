@@ -88,7 +88,8 @@ template <int dim>
 void expect_oval(const geometry::Part part, const double tolerance)
 {
   const Designed<dim> designed(ring(part, dim), "outer", shape::Coordinates::arc_length, oval<dim>);
-  const auto surface = io::fit_splines<dim>(designed.chart, designed.positions, tolerance, 5000);
+  const auto          surface =
+    io::fit_splines<dim>(io::points_of(designed.chart, designed.positions), tolerance, 5000);
   EXPECT_LE(surface.deviation, tolerance);
   EXPECT_GT(surface.deviation, 0.);
   EXPECT_TRUE(designed.chart.fills_rectangle());
@@ -127,7 +128,8 @@ TEST(SplineSurface, RefinesWhereAndAlongWhichTheDesignIsCurved)
     move[2] = 0.01 * std::exp(-200. * (x[0] - 0.8) * (x[0] - 0.8)) + 0.1 * x[1];
     return move;
   });
-  const auto        surface = io::fit_splines<3>(designed.chart, designed.positions, 1e-6, 5000);
+  const auto        surface =
+    io::fit_splines<3>(io::points_of(designed.chart, designed.positions), 1e-6, 5000);
   EXPECT_LE(surface.deviation, 1e-6);
   EXPECT_LE(surface.n_spans(1), 4u);
   unsigned int at_bump = 0, elsewhere = 0;
@@ -150,7 +152,8 @@ TEST(SplineSurface, ReturnsTheBestSurfaceOfFewPoints)
     move[1] = std::abs(x[0] - 0.5);
     return move;
   });
-  const auto        surface = io::fit_splines<2>(designed.chart, designed.positions, 1e-12, 40);
+  const auto        surface =
+    io::fit_splines<2>(io::points_of(designed.chart, designed.positions), 1e-12, 40);
   EXPECT_LE(surface.points.size(), 40u);
   EXPECT_GT(surface.deviation, 1e-12);
   EXPECT_LT(surface.deviation, 1e-2);
@@ -190,7 +193,8 @@ TEST(FaceChart, FindsTheBorderOfADisc)
         }
     }
   EXPECT_GT(turn, 0.); // counterclockwise
-  const auto surface = io::fit_splines<3>(designed.chart, designed.positions, 1e-6, 5000);
+  const auto surface =
+    io::fit_splines<3>(io::points_of(designed.chart, designed.positions), 1e-6, 5000);
   EXPECT_LE(surface.deviation, 1e-6);
   for (const auto &at : random_fractions<3>(500))
     {
