@@ -300,6 +300,19 @@ bool DesignedFace<dim>::depends_on(const shape::FaceCoordinate &coordinate) cons
 }
 
 template <int dim>
+double DesignedFace<dim>::size() const
+{
+  auto lower = at_points.front(), upper = lower;
+  for (const auto &x : at_points)
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::min(lower[d], x[d]);
+        upper[d] = std::max(upper[d], x[d]);
+      }
+  return (upper - lower).norm();
+}
+
+template <int dim>
 std::array<unsigned int, 2> DesignedFace<dim>::place(const unsigned int global_node) const
 {
   const unsigned int node = face->surface().find(global_node);
@@ -351,22 +364,22 @@ template <int dim>
 std::string DesignedFace<dim>::crown(const std::string                            &unit,
                                      const std::vector<state::SymmetryPlane<dim>> &planes) const
 {
-  const auto  &surface = face->surface();
-  const double size    = (at_points.front() - at_points.back()).norm();
-  const auto   m =
+  const auto &surface = face->surface();
+  const auto  m =
     io::mean_normal(surface, io::surface_pieces(surface).front(), face->mesh().degree(), planes);
-  const bool radial = swept && swept->sweep.rotates && dim == 3;
-  if (!swept || !(largest_move > round_off * size) || (!radial && m.norm() == 0.))
+  const bool rotates = swept && swept->sweep.rotates && dim == 3;
+  if (!swept || !(largest_move > round_off * size()) || (!rotates && m.norm() == 0.))
     return "";
-  const auto &axis = swept->sweep.axis;
-  // The normals of a bore point to its axis.
-  const double sign   = radial && (in_space<dim>(face->positions()[0]) - axis.point) *
-                                    in_space<dim>(face->free_normals()[0]) <
-                                  0.
-                          ? -1.
-                          : 1.;
-  const auto   height = [&](const Vector &x) {
-    return radial ? sign * swept->sweep.section(in_space<dim>(x))[0] : m * x;
+  // Around an axis, the depth is the component of the section to which the mean normal is closest.
+  const auto          &axis = swept->sweep.axis;
+  dealii::Tensor<1, 2> normal;
+  const auto section = [&](const Vector &x) { return swept->sweep.section(in_space<dim>(x)); };
+  for (unsigned int k = 0; k < surface.n_nodes(); ++k)
+    normal += face->areas()[k] * (section(face->positions()[k] + 1e-3 * face->free_normals()[k]) -
+                                  section(face->positions()[k]));
+  const unsigned int deep   = std::abs(normal[0]) >= std::abs(normal[1]) ? 0 : 1;
+  const auto         height = [&](const Vector &x) {
+    return rotates ? std::copysign(1., normal[deep]) * section(x)[deep] : m * x;
   };
   const shape::FaceChart<dim>        chart(*face, swept->axes);
   std::vector<std::array<double, 3>> rows; // position, heights before and after
@@ -377,21 +390,21 @@ std::string DesignedFace<dim>::crown(const std::string                          
       const auto   place = on_curve(chart, s, {0.5, 0.25, 0.75, 0.125, 0.875});
       if (!place)
         continue;
-      const auto   before = place->value(face->positions());
-      const double at =
-        radial ? in_space<dim>(before) * axis.direction : swept->axes[swept->curve].lower + s;
-      const std::array<double, 3> row = {{at, height(before), height(place->value(at_points))}};
-      top                             = {{std::max(top[0], row[1]), std::max(top[1], row[2])}};
+      const auto                  before = place->value(face->positions());
+      const double                at     = !rotates    ? swept->axes[swept->curve].lower + s
+                                           : deep == 0 ? in_space<dim>(before) * axis.direction
+                                                       : section(before)[0];
+      const std::array<double, 3> row    = {{at, height(before), height(place->value(at_points))}};
+      top                                = {{std::max(top[0], row[1]), std::max(top[1], row[2])}};
       if (k % n_between == 0)
         rows.push_back(row);
     }
+  const auto &d = axis.direction;
   std::string text =
-    "face " + name + ", drop along " + swept->along +
-    (radial
-       ? " (" + to_text(std::vector<double>(axis.direction.begin_raw(), axis.direction.end_raw())) +
-           ")"
-       : "") +
-    (unit.empty() ? "" : ", in " + unit) + ":\n" + "      position   drop before    drop after\n";
+    "face " + name + ", drop at " +
+    (deep == 0 || !rotates ? "positions along " : "distances from ") + swept->along +
+    (rotates ? " (" + to_text(std::vector<double>{d[0], d[1], d[2]}) + ")" : "") +
+    (unit.empty() ? "" : ", in " + unit) + ":\n      position   drop before    drop after\n";
   unsigned int n = 0;
   for (const auto &[at, before, after] : rows)
     for (const double number : {at, top[0] - before, top[1] - after})
@@ -406,7 +419,7 @@ std::string DesignedFace<dim>::crown(const std::string                          
 
 template <int dim>
 std::pair<cad::SplineFace, io::Summary::ProfileFace>
-DesignedFace<dim>::splines(const double asked, const unsigned int most_points) const
+DesignedFace<dim>::splines(const double asked) const
 {
   std::pair<cad::SplineFace, io::Summary::ProfileFace> result;
   if (!coordinates)

@@ -11,22 +11,6 @@
 
 namespace snug::app {
 namespace {
-/// Maximum number of control points of a face.
-const unsigned int most_points = 5000;
-
-template <int dim>
-double size_of(const std::vector<dealii::Tensor<1, dim>> &positions)
-{
-  auto lower = positions.front(), upper = lower;
-  for (const auto &x : positions)
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] = std::min(lower[d], x[d]);
-        upper[d] = std::max(upper[d], x[d]);
-      }
-  return (upper - lower).norm();
-}
-
 /// Return the shaped faces of a design. Collective.
 template <int dim>
 std::vector<DesignedFace<dim>> designed_faces(const ShapeProblem<dim> &problem,
@@ -118,8 +102,8 @@ void Results<dim>::export_profile(const std::vector<DesignedFace<dim>> &designed
   for (const auto &one : designed)
     try
       {
-        const double asked = scene.output.profile_deviation * size_of<dim>(one.positions());
-        const auto [face, of_summary] = one.splines(asked, most_points);
+        const double asked            = scene.output.profile_deviation * one.size();
+        const auto [face, of_summary] = one.splines(asked);
         faces.push_back(face);
         summary.profile.push_back(of_summary);
       }
@@ -130,6 +114,7 @@ void Results<dim>::export_profile(const std::vector<DesignedFace<dim>> &designed
   if (!faces.empty())
     cad::write_step(path("profile.step"), scene.units.empty() ? "mm" : scene.units.front(), faces);
   report_profile(failures);
+  export_solids(designed);
 }
 
 template <int dim>

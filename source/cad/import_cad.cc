@@ -194,6 +194,8 @@ std::shared_ptr<geometry::ImportedMesh> blocks_of(const MeshedPart            &m
   auto result         = mesh_file::import_mesh<dim>(file, parameters, &exact);
   result->text_hash   = mesh_file::text_hash(meshed.mesh);
   result->faces       = meshed.table;
+  result->brep        = meshed.brep;
+  result->boundaries  = meshed.boundaries;
   return result;
 }
 } // namespace

@@ -1,4 +1,4 @@
-#include <snug/cad/write_step.h>
+#include <snug/cad/step_shapes.h>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -115,24 +115,6 @@ Handle(Geom_BSplineCurve) curve_of(const SplineFace &face)
   return curve;
 }
 
-Handle(Geom_BSplineSurface) surface_of(const SplineFace &face)
-{
-  const auto        &s = face.axes[0], &t = face.axes[1];
-  const Knots        along_s(s, face.degree), along_t(t, face.degree);
-  const int          n = s.closed ? along_s.n_points - face.degree : along_s.n_points;
-  const int          m = face.points.size() / n;
-  TColgp_Array2OfPnt poles(1, along_s.n_points, 1, along_t.n_points);
-  for (int i = 0; i < along_s.n_points; ++i)
-    for (int j = 0; j < along_t.n_points; ++j)
-      poles(i + 1, j + 1) = point(face.points[i % n + n * (j % m)]);
-  Handle(Geom_BSplineSurface) surface =
-    new Geom_BSplineSurface(poles, along_s.values, along_t.values, along_s.multiplicities,
-                            along_t.multiplicities, face.degree, face.degree);
-  if (s.closed || t.closed)
-    surface->Segment(s.breaks.front(), s.breaks.back(), t.breaks.front(), t.breaks.back());
-  return surface;
-}
-
 /// Return the curve of parameters through the points of a smooth piece. A piece that ends where it
 /// begins is a periodic curve.
 Handle(Geom2d_BSplineCurve) curve_through(const std::vector<dealii::Point<2>> &points)
@@ -203,7 +185,7 @@ TopoDS_Face face_of(const SplineFace &face)
 }
 
 /// Set the name of the entity of a face, which most programs take as the name of the face.
-void set_name(STEPCAFControl_Writer &writer, const TopoDS_Face &face, const std::string &name)
+void set_name(STEPCAFControl_Writer &writer, const TopoDS_Shape &face, const std::string &name)
 {
   const auto session = writer.ChangeWriter().WS();
   const auto entity  = STEPConstruct::FindEntity(session->TransferWriter()->FinderProcess(), face);
@@ -211,33 +193,49 @@ void set_name(STEPCAFControl_Writer &writer, const TopoDS_Face &face, const std:
     entity->SetName(new TCollection_HAsciiString(name.c_str()));
 }
 
-void write(const std::string &path, const std::vector<SplineFace> &faces)
+void write(const std::string             &path,
+           const std::vector<NamedShape> &products,
+           const std::vector<NamedShape> &faces)
 {
   // Messages of OpenCASCADE would go to the log.
   Message::DefaultMessenger()->ChangePrinters().Clear();
   Handle(TDocStd_Document) document;
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
-  const auto               shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
-  std::vector<TopoDS_Face> made;
-  for (const auto &face : faces)
-    {
-      made.push_back(face_of(face));
-      TDataStd_Name::Set(shapes->AddShape(made.back(), false), face.name.c_str());
-    }
+  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  for (const auto &[shape, name] : products)
+    TDataStd_Name::Set(shapes->AddShape(shape, false), name.c_str());
   STEPCAFControl_Writer writer;
   // OpenCASCADE 7.8 reads "write.step.unit" for the unit that the file names, but converts the
   // numbers to the unit of the model, which would be mm.
   writer.ChangeWriter().Model()->SetWriteLengthUnit(
     UnitsMethods::GetLengthFactorValue(Interface_Static::IVal("write.step.unit")));
   bool done = writer.Transfer(document, STEPControl_AsIs);
-  for (unsigned int f = 0; f < faces.size(); ++f)
-    set_name(writer, made[f], faces[f].name);
+  for (const auto &[face, name] : faces)
+    set_name(writer, face, name);
   done = done && writer.Write(path.c_str()) == IFSelect_RetDone;
   XCAFApp_Application::GetApplication()->Close(document);
   if (!done)
     throw std::runtime_error("OpenCASCADE cannot write " + path);
 }
 } // namespace
+
+Handle(Geom_BSplineSurface) surface_of(const SplineFace &face)
+{
+  const auto        &s = face.axes[0], &t = face.axes[1];
+  const Knots        along_s(s, face.degree), along_t(t, face.degree);
+  const int          n = s.closed ? along_s.n_points - face.degree : along_s.n_points;
+  const int          m = face.points.size() / n;
+  TColgp_Array2OfPnt poles(1, along_s.n_points, 1, along_t.n_points);
+  for (int i = 0; i < along_s.n_points; ++i)
+    for (int j = 0; j < along_t.n_points; ++j)
+      poles(i + 1, j + 1) = point(face.points[i % n + n * (j % m)]);
+  Handle(Geom_BSplineSurface) surface =
+    new Geom_BSplineSurface(poles, along_s.values, along_t.values, along_s.multiplicities,
+                            along_t.multiplicities, face.degree, face.degree);
+  if (s.closed || t.closed)
+    surface->Segment(s.breaks.front(), s.breaks.back(), t.breaks.front(), t.breaks.back());
+  return surface;
+}
 
 bool is_step_unit(const std::string &unit)
 {
@@ -246,7 +244,8 @@ bool is_step_unit(const std::string &unit)
 
 void write_step(const std::string             &path,
                 const std::string             &unit,
-                const std::vector<SplineFace> &faces)
+                const std::vector<NamedShape> &products,
+                const std::vector<NamedShape> &faces)
 {
   const STEPCAFControl_Writer declares_the_parameters;
   const std::string           known = step_units().at(is_step_unit(unit) ? unit : "mm");
@@ -254,12 +253,22 @@ void write_step(const std::string             &path,
   const StaticValue of_numbers("xstep.cascade.unit", known), of_file("write.step.unit", known);
   try
     {
-      write(path, faces);
+      write(path, products, faces);
     }
   catch (const Standard_Failure &failure)
     {
       throw std::runtime_error("OpenCASCADE cannot write " + path + ": " +
                                failure.GetMessageString());
     }
+}
+
+void write_step(const std::string             &path,
+                const std::string             &unit,
+                const std::vector<SplineFace> &faces)
+{
+  std::vector<NamedShape> made;
+  for (const auto &face : faces)
+    made.emplace_back(face_of(face), face.name);
+  write_step(path, unit, made, made);
 }
 } // namespace snug::cad

@@ -7,9 +7,6 @@
 #include <deal.II/base/tensor.h>
 
 namespace snug::geometry {
-namespace {
-const std::string rotate_entry = "Rotate";
-
 template <int dim>
 dealii::Tensor<2, dim> rotation_of(const BodyMeshParameters &parameters)
 {
@@ -21,7 +18,7 @@ dealii::Tensor<2, dim> rotation_of(const BodyMeshParameters &parameters)
       double             degrees = 0.;
       if (axis == 3 || (dim == 2 && axis != 2) || !(text >> degrees) || !(text >> std::ws).eof() ||
           !std::isfinite(degrees))
-        throw bad_entry(rotate_entry, turn.first + ": " + turn.second,
+        throw bad_entry("Rotate", turn.first + ": " + turn.second,
                         dim == 2 ? "must be 'z: degrees'"
                                  : "must be 'axis: degrees, ...', axes "
                                    "x, y, z");
@@ -31,6 +28,7 @@ dealii::Tensor<2, dim> rotation_of(const BodyMeshParameters &parameters)
   return result;
 }
 
+namespace {
 /// A geometry with positions x' = Q s (x + w(x)) + t. Logical coordinates are not changed.
 template <int dim>
 class PlacedGeometry : public WrappedGeometry<dim>
@@ -113,6 +111,7 @@ std::unique_ptr<BodyGeometry<dim>> placed(std::unique_ptr<BodyGeometry<dim>> geo
   return std::make_unique<PlacedGeometry<dim>>(std::move(geometry), parameters);
 }
 
+template dealii::Tensor<2, 3>             rotation_of<3>(const BodyMeshParameters &);
 template std::unique_ptr<BodyGeometry<2>> placed(std::unique_ptr<BodyGeometry<2>>,
                                                  const BodyMeshParameters &);
 template std::unique_ptr<BodyGeometry<3>> placed(std::unique_ptr<BodyGeometry<3>>,

@@ -13,6 +13,9 @@ cad::SplineFace spline_face(const io::SplineSurface<dim>     &surface,
                             const dealii::Tensor<1, dim - 1> &range,
                             const dealii::Tensor<1, dim - 1> &lower = {});
 
+/// Maximum number of control points of a face.
+const unsigned int most_points = 5000;
+
 /**
  * This class is the motion of a plane curve that makes a face: a rotation about an axis, or a
  * translation. In 2D the motion is that from the section to the solid.
@@ -68,6 +71,9 @@ public:
   /// Return the positions of the points of the face in the design.
   const std::vector<Vector> &positions() const { return at_points; }
 
+  /// Return the diagonal of the box of the face in the design [length].
+  double size() const;
+
   /// Return numbers by which the surface node with a global number is sorted: by the position along
   /// the axis of an extrusion or a surface of revolution, or along the longer direction of a graph,
   /// then across. Zeros if the face has no coordinates.
@@ -83,10 +89,9 @@ public:
                     const std::vector<state::SymmetryPlane<dim>> &planes) const;
 
   /// Return the face with B-splines that deviate by at most @p asked [length], or that have at most
-  /// @p most_points control points, and the summary of the face. @throws InputError if the face has
+  /// most_points control points, and the summary of the face. @throws InputError if the face has
   /// no coordinates.
-  std::pair<cad::SplineFace, io::Summary::ProfileFace> splines(double       asked,
-                                                               unsigned int most_points) const;
+  std::pair<cad::SplineFace, io::Summary::ProfileFace> splines(double asked) const;
 
 private:
   /// Coordinates of which one is swept: the axes in the order of SplineFace.

@@ -112,6 +112,9 @@ private:
   std::vector<MeshError> estimate(const States &states);
   /// Write the shaped faces as a STEP file. For one rank.
   void export_profile(const std::vector<DesignedFace<dim>> &designed);
+  /// Write the solid of each body from a CAD file with its shaped faces as a STEP file, or a
+  /// warning with the reason why there is no valid one. For one rank.
+  void export_solids(const std::vector<DesignedFace<dim>> &designed);
   /// Print the faces of the STEP file in the summary, and warnings after them.
   void report_profile(std::vector<std::string> lines);
   /// Write the 'Meshes' of the scene at the positions of @p state. Collective.

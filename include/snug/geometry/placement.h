@@ -4,6 +4,10 @@
 #include <snug/geometry/body_geometry.h>
 
 namespace snug::geometry {
+/// Return the rotation Q of the entry Rotate. @throws InputError
+template <int dim>
+dealii::Tensor<2, dim> rotation_of(const BodyMeshParameters &parameters);
+
 /**
  * Return @p geometry, warped, scaled, rotated and shifted:
  * @f[ x' = Q\, s\, (x + w(x)) + t. @f]

@@ -1,0 +1,24 @@
+#ifndef snug_cad_step_shapes_h
+#define snug_cad_step_shapes_h
+
+#include <snug/cad/write_step.h>
+
+#include <Geom_BSplineSurface.hxx>
+#include <TopoDS_Shape.hxx>
+
+namespace snug::cad {
+/// A shape with its name in a STEP file.
+using NamedShape = std::pair<TopoDS_Shape, std::string>;
+
+/// Return the surface of a face with two parameters.
+Handle(Geom_BSplineSurface) surface_of(const SplineFace &face);
+
+/// Write products, and set the names of the entities of @p faces, which belong to the products.
+/// See write_step() for faces.
+void write_step(const std::string             &path,
+                const std::string             &unit,
+                const std::vector<NamedShape> &products,
+                const std::vector<NamedShape> &faces);
+} // namespace snug::cad
+
+#endif
