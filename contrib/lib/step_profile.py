@@ -24,6 +24,22 @@ def step_nodes(path, size):
             for line in lines[first:first + int(lines[first - 1])]]
 
 
+def step_volume(path):
+    """Return the volume of the only solid of a STEP file, as Gmsh computes it, in mm^3."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = pathlib.Path(folder, "solid.geo")
+        script.write_text('SetFactory("OpenCASCADE");\n'
+                          f'v() = ShapeFromFile("{pathlib.Path(path).resolve()}");\n'
+                          'm = Mass Volume{v(0)};\nPrintf("volume %.15g of %g", m, #v());\n',
+                          encoding="utf-8")
+        done = subprocess.run(["gmsh", "-0", "-nopopup", script, "-o", pathlib.Path(folder, "solid.brep")],
+                              check=True, capture_output=True, text=True, timeout=120)
+    volume, n = re.search(r"volume (\S+) of (\d+)", done.stdout + done.stderr).groups()
+    if int(n) != 1:
+        raise ValueError(f"{path} has {n} shapes")
+    return float(volume)
+
+
 def step_text(path):
     """Return the text of a STEP file without blanks and ends of lines."""
     return "".join(pathlib.Path(path).read_text(encoding="utf-8").split())

@@ -386,8 +386,11 @@ std::string DesignedFace<dim>::crown(const std::string                          
   std::array<double, 2>              top = {{-HUGE_VAL, -HUGE_VAL}};
   for (unsigned int k = 0; k <= n_rows * n_between; ++k)
     {
-      const double s     = chart.range()[swept->curve] * k / (n_rows * n_between);
-      const auto   place = on_curve(chart, s, {0.5, 0.25, 0.75, 0.125, 0.875});
+      const double range = chart.range()[swept->curve], s = range * k / (n_rows * n_between);
+      const std::vector<double> across = {0.5, 0.25, 0.75, 0.125, 0.875};
+      auto                      place  = on_curve(chart, s, across);
+      if (!place) // at a pole
+        place = on_curve(chart, std::clamp(s, 1e-4 * range, (1. - 1e-4) * range), across);
       if (!place)
         continue;
       const auto                  before = place->value(face->positions());

@@ -6,7 +6,6 @@
 #include <snug/geometry/imported_mesh.h>
 #include <snug/geometry/placement.h>
 
-#include <filesystem>
 #include <sstream>
 
 namespace snug::app {
@@ -108,10 +107,10 @@ void Results<3>::export_solids(const std::vector<DesignedFace<3>> &designed)
   std::vector<std::string> failures;
   for (const auto &body : scene.bodies)
     {
-      const auto &imported = body.mesh.imported;
-      if (!imported || imported->brep.empty())
+      const auto       &imported = body.mesh.imported;
+      const std::string file     = solid_file(scene, body);
+      if (file.empty())
         continue;
-      const std::string file = body.name + ".step";
       try
         {
           const cad::MovedSolid                   solid(imported->brep, body.mesh.scale,
@@ -139,14 +138,10 @@ void Results<3>::export_solids(const std::vector<DesignedFace<3>> &designed)
             continue;
           if (!body.mesh.warp.empty())
             throw InputError("it has a 'Warp'");
-          std::error_code unused;
-          if (std::filesystem::equivalent(path(file), body.mesh.file, unused))
-            throw InputError("the file would replace 'File'");
-          const double volume =
-            solid.write(path(file), scene.units.empty() ? "mm" : scene.units.front(), body.name,
-                        names, moved, tolerance);
+          const double volume = solid.write(file, scene.units.empty() ? "mm" : scene.units.front(),
+                                            body.name, names, moved, tolerance);
           std::ostringstream line;
-          line << file << ": solid of " << names.size() << " faces, " << moved.size()
+          line << body.name << ".step: solid of " << names.size() << " faces, " << moved.size()
                << " of them moved, volume " << volume << Units(scene.units).after_number("length^3")
                << ", maximum deviation from the design " << deviation
                << Units(scene.units).after_number("length");
@@ -154,7 +149,7 @@ void Results<3>::export_solids(const std::vector<DesignedFace<3>> &designed)
         }
       catch (const InputError &error)
         {
-          failures.push_back(file + " is not written: " + error.what());
+          failures.push_back(body.name + ".step is not written: " + error.what());
         }
     }
   problem->context.warn("export", failures);

@@ -4,6 +4,7 @@
 #include <snug/app/offsets.h>
 #include <snug/app/results.h>
 #include <snug/contact/pair_geometry.h>
+#include <snug/geometry/imported_mesh.h>
 #include <snug/io/mesh_export.h>
 #include <snug/io/qp_export.h>
 #include <snug/io/text_file.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <ostream>
 
@@ -25,9 +27,21 @@ std::vector<std::string> output_directories(const scene::Scene &scene)
   return directories;
 }
 
+std::string solid_file(const scene::Scene &scene, const scene::Body &body)
+{
+  const std::string path = scene.output_directory + '/' + body.name + ".step";
+  std::error_code   unused;
+  const bool        is_input = std::filesystem::equivalent(path, body.mesh.file, unused);
+  return is_input || !body.mesh.imported || body.mesh.imported->brep.empty() ? "" : path;
+}
+
 void remove_earlier_results(const RunContext &context, const scene::Scene &scene)
 {
   io::remove_results(context, output_directories(scene));
+  std::error_code ignored;
+  for (const auto &body : scene.bodies)
+    if (context.rank() == 0)
+      std::filesystem::remove(solid_file(scene, body), ignored);
 }
 
 template <int dim>

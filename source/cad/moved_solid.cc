@@ -29,6 +29,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace snug::cad {
 namespace {
@@ -83,7 +85,10 @@ private:
   void move_vertices();
   void move_edge(const TopoDS_Edge &edge, const TopTools_ListOfShape &of_faces, bool of_moved);
   void set_curves(const TopoDS_Edge &from, TopoDS_Edge &to, const TopTools_ListOfShape &of_faces);
-  void cut(const TopoDS_Edge &from, TopoDS_Edge &to, const std::array<TopoDS_Vertex, 2> &ends);
+  void cut(const TopoDS_Edge                  &from,
+           TopoDS_Edge                        &to,
+           const std::array<TopoDS_Vertex, 2> &ends,
+           const TopTools_ListOfShape         &of_faces);
   void put_on(const TopoDS_Edge &edge, const TopoDS_Face &face);
   /// Return the vertex at the place of a vertex of the part.
   TopoDS_Vertex at(const TopoDS_Vertex &vertex) const
@@ -139,7 +144,7 @@ void Move::move_edge(const TopoDS_Edge          &edge,
     return;
   TopoDS_Edge made;
   builder.MakeEdge(made);
-  of_moved ? set_curves(edge, made, of_faces) : cut(edge, made, ends);
+  of_moved ? set_curves(edge, made, of_faces) : cut(edge, made, ends, of_faces);
   builder.Add(made, ends[0].Oriented(TopAbs_FORWARD));
   builder.Add(made, ends[1].Oriented(TopAbs_REVERSED));
   if (of_moved && BRep_Tool::Degenerated(edge))
@@ -180,7 +185,10 @@ void Move::set_curves(const TopoDS_Edge          &from,
 
 /// Set the part of the curve of an edge that ends at new vertices. @throws InputError if they do
 /// not lie on the curve.
-void Move::cut(const TopoDS_Edge &from, TopoDS_Edge &to, const std::array<TopoDS_Vertex, 2> &ends)
+void Move::cut(const TopoDS_Edge                  &from,
+               TopoDS_Edge                        &to,
+               const std::array<TopoDS_Vertex, 2> &ends,
+               const TopTools_ListOfShape         &of_faces)
 {
   std::array<double, 2> range;
   const auto            curve = BRep_Tool::Curve(from, range[0], range[1]);
@@ -188,8 +196,8 @@ void Move::cut(const TopoDS_Edge &from, TopoDS_Edge &to, const std::array<TopoDS
     {
       const GeomAPI_ProjectPointOnCurve on(BRep_Tool::Pnt(ends[k]), curve);
       if (on.NbPoints() == 0 || on.LowerDistance() > 2. * tolerance)
-        throw InputError("a corner of a moved face leaves the edge between two faces that are not "
-                         "moved");
+        throw InputError("the design moves a corner off the edge between the faces " +
+                         names[index(of_faces.First())] + " and " + names[index(of_faces.Last())]);
       const double at = on.LowerDistanceParameter();
       range[k]        = curve->IsPeriodic()
                           ? at + curve->Period() * std::round((range[k] - at) / curve->Period())
@@ -211,8 +219,12 @@ void Move::put_on(const TopoDS_Edge &edge, const TopoDS_Face &face)
       farthest = std::max(farthest, on.NbPoints() == 0 ? HUGE_VAL : on.LowerDistance());
     }
   if (farthest > 2. * tolerance)
-    throw InputError("the design moves an edge off the face " + names[index(face)] + " by " +
-                     to_text(farthest) + ", which no shape moves");
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << "the design moves an edge off the face " << names[index(face)]
+           << " by " << farthest << "; shape this face as well, or hold the edge";
+      throw InputError(text.str());
+    }
   if (BRepAdaptor_Surface(face).GetType() != GeomAbs_Plane)
     ShapeFix_Edge().FixAddPCurve(edge, face, false, tolerance);
 }

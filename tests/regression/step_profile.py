@@ -7,6 +7,7 @@ evaluated without Snug, from control-points.csv."""
 
 import argparse
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -16,7 +17,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "contrib" / "lib"))
 
-from step_profile import Crown, face_names, step_nodes, step_points, step_unit  # noqa: E402
+from step_profile import Crown, face_names, step_nodes, step_points, step_text, step_unit, step_volume  # noqa: E402
 
 COARSE = ["Task=sensitivity", "Gradient/Compare=false", "Body rim/Element size=8",
           "Body rim/Face sizes=tread: 4", "Body rim/Local refinements=0",
@@ -52,7 +53,11 @@ class Profile(unittest.TestCase):
         self.assertEqual(face_names(step), ["rim.tread"])
         written, = summary(self.output)["profile"]
         self.assertLessEqual(written["deviation"], written["asked"])
-        self.assertIn("profile.step: face rim.tread", log)
+        # The crown is constant around the axis: a curve that is revolved.
+        self.assertIn("profile.step: face rim.tread, swept B-spline", log)
+        self.assertEqual(written["kind"], "curve")
+        self.assertLess(len(written["spans"]), 2)
+        self.assertIn("SURFACE_OF_REVOLUTION", step_text(step))
         crown = Crown(self.output, 50, -50, 14)
         nodes = step_nodes(step, 1)
         self.assertGreater(len(nodes), 200)
@@ -71,6 +76,30 @@ class Profile(unittest.TestCase):
         self.assertEqual(faces[0][0]["spans"], faces[1][0]["spans"])
         self.assertLessEqual(faces[0][0]["deviation"], faces[0][0]["asked"])
         self.assertAlmostEqual(faces[0][0]["asked"], faces[1][0]["asked"], places=12)
+
+    def test_the_solid_has_the_moved_faces(self):
+        log = run("prm/step-roller.prm", [*COARSE, "Shape/Face=rim.tread + rim.shoulder"], self.output)
+        step = self.output / "rim.step"
+        self.assertIn("rim.step: solid of 7 faces, 2 of them moved", log)
+        self.assertEqual(face_names(step), ["rim." + name for name in (
+            "bore", "side", "shoulder", "tread", "left", "front", "cut")])
+        asked = max(face["asked"] for face in summary(self.output)["profile"])
+        crown = Crown(self.output, 50, -50, 20)
+        # Points of the file within the borders of the moved faces.
+        nodes = [(x, y, z) for x, y, z in step_nodes(step, 1) if math.hypot(y, z + 50) > 49.5 and
+                 0.1 < x < 19.9 and 0.01 < math.atan2(y, z + 50) < 0.27]
+        self.assertGreater(len(nodes), 200)
+        self.assertLess(crown.deviation(nodes), 2 * asked + 1e-5)
+        n = 2000
+        section = sum(((50 + crown.height(20 * (k + 0.5) / n))**2 - 36**2) / 2 * 20 / n
+                      for k in range(n))
+        area = 0.28 * 50 * 20
+        self.assertAlmostEqual(step_volume(step), 0.28 * section, delta=(2 * asked + 1e-5) * area)
+
+    def test_a_face_beside_a_moved_edge_prevents_the_solid(self):
+        log = run("prm/step-roller.prm", COARSE, self.output)
+        self.assertIn("rim.step is not written: the design moves an edge off the face rim.shoulder", log)
+        self.assertFalse((self.output / "rim.step").exists())
 
     def test_sections_are_swept(self):
         scene = "tests/scenes/ground-profile.prm"

@@ -13,6 +13,10 @@ class DesignedFace;
 /// Return the output directory of a scene and, if there are several load cases, their directories.
 std::vector<std::string> output_directories(const scene::Scene &scene);
 
+/// Return the path of the STEP file of a body, or nothing for bodies that are not from a CAD file,
+/// or whose CAD file has this path.
+std::string solid_file(const scene::Scene &scene, const scene::Body &body);
+
 /// Remove the results of earlier runs from the output directories of a scene. Collective.
 void remove_earlier_results(const RunContext &context, const scene::Scene &scene);
 
