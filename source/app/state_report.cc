@@ -176,15 +176,9 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
         << (state.dissipation <= round_off * state.strain_energy ? 0. : state.dissipation) << energy
         << '\n';
   out << "largest displacement " << moved.size << length << ": "
-<<<<<<< HEAD
       << vector_text(moved.displacement, moved.size) << " at "
       << vector_text(moved.position, moved.extent) << length << '\n';
-  print_stress(context, units, state);
-=======
-      << text_of(moved.displacement, moved.size) << " at " << text_of(moved.position, moved.extent)
-      << length << '\n';
   print_stress(problem, state);
->>>>>>> 9551296f (Compare elastic stresses with a yield stress)
   out << "work of loads " << state.compliance << energy << ", strain energy " << state.strain_energy
       << energy << ", potential energy " << state.energy << energy << std::endl;
   print_forces(problem, state);

@@ -14,14 +14,19 @@ namespace {
 /// Part of the energy of all bodies below which the energy of a body does not count.
 const double least_part = 1e-3;
 
+/// Energy of stresses that are round-off, as a part of the energy that the displacement gradients
+/// would have as strains. A body that expands freely has no other stresses.
+const double round_off = 1e-14;
+
 /// Rigid motions of a body up to this part of the largest one are held by rounding errors alone.
 const double held_cut = 1e-10;
 
-/// Integrals over a body. With a constant matrix W, the integral of sigma : (G - W)'(G - W) is
-/// GGS - 2 W : GS + W : (W S).
+/// Integrals over a body with Young's modulus E. With a constant matrix W, the integral of sigma :
+/// (G - W)'(G - W) is GGS - 2 W : GS + W : (W S).
 struct Integrals
 {
   double               energy = 0., volume = 0.; ///< int sigma : C^-1 sigma, int 1
+  double               EGG = 0.;                 ///< int E G : G
   double               GGS = 0.;                 ///< int sigma : G'G
   dealii::Tensor<2, 3> GS, S, G;                 ///< int G sigma, int sigma, int G
 
@@ -29,7 +34,7 @@ struct Integrals
   template <typename Visit>
   void for_each(const Visit &visit)
   {
-    for (double *number : {&energy, &volume, &GGS})
+    for (double *number : {&energy, &volume, &EGG, &GGS})
       visit(*number);
     for (auto *matrix : {&GS, &S, &G})
       for (unsigned int i = 0; i < 3; ++i)
@@ -70,6 +75,7 @@ std::vector<Integrals> integrals(const StateSolver<dim> &solver, const ContactSt
               const dealii::Tensor<2, 3>       sigma = stresses[q], GS = G * sigma;
               of_body.energy += elastic_density(assembler.material(i), sigma) * point.dV;
               of_body.volume += point.dV;
+              of_body.EGG += assembler.material(i).youngs_modulus * G.norm_square() * point.dV;
               of_body.GGS += scalar_product(G, GS) * point.dV;
               of_body.GS += GS * point.dV;
               of_body.S += sigma * point.dV;
@@ -177,7 +183,8 @@ std::vector<GeometricEffect> geometric_effects(const StateSolver<dim>  &solver,
       const dealii::Tensor<2, 3> W({{0., -w[2], w[1]}, {w[2], 0., -w[0]}, {-w[1], w[0], 0.}});
       const double               of_second_order =
         of.GGS - 2. * scalar_product(W, of.GS) + scalar_product(W, dealii::Tensor<2, 3>(W * of.S));
-      const double of_first_order = std::max(std::abs(of.energy), least_part * energy);
+      const double of_first_order =
+        std::max({std::abs(of.energy), least_part * energy, round_off * of.EGG});
       result.push_back({solver.model().body_names[body],
                         of_first_order > 0. ? of_second_order / of_first_order : 0., w.norm()});
     }
