@@ -1,13 +1,15 @@
 """Draw the pressure, the friction traction and the slip on every slave side."""
 
 import collections
+import copy
 
 import numpy as np
 
 from drawing import (Panel, compose, frame, mark, number_text, outline_window, paint, place_text,
-                     proportions, scales, titles)
+                     proportions, scales, stretched_by, titles, write_beside)
 from sections import cells_at, lists_of
 from states import array_of, cells_of, joined, magnitude_of, points_of
+from unrolled import bore_of
 from views import AXES, Window, along_axis
 
 # Status of friction in the array of that name.
@@ -17,11 +19,11 @@ STICK, SLIP = 2, 3
 Field = collections.namedtuple("Field", "array label unit picture title dots is_dotted")
 FIELDS = [
     Field("pressure", "pressure", "stress", "contact-pressure.png",
-          "Contact pressure", "nodes in contact", lambda grid: array_of(grid, "active") > 0.5),
+          "contact pressure", "nodes in contact", lambda grid: array_of(grid, "active") > 0.5),
     Field("traction", "friction traction", "stress", "friction-traction.png",
-          "Magnitude of the friction traction", "nodes that stick",
+          "magnitude of the friction traction", "nodes that stick",
           lambda grid: array_of(grid, "friction") == STICK),
-    Field("slip", "slip", "length", "slip.png", "Magnitude of the slip in the last load step",
+    Field("slip", "slip", "length", "slip.png", "magnitude of the slip in the last load step",
           "nodes that slip", lambda grid: array_of(grid, "friction") == SLIP)]
 
 
@@ -49,20 +51,29 @@ class Side:
     def normal(self):
         """Return the coordinate axis closest to the normal, where a 3D face is loaded if it
         is: 0, 1 or 2."""
-        edge = self.points[self.faces[:, 1]] - self.points[self.faces[:, 0]]
         if self.flat:
+            edge = self.points[self.faces[:, 1]] - self.points[self.faces[:, 0]]
             return int(np.argmin(np.abs(edge[:, :2]).sum(axis=0)))
-        normals = np.cross(edge, self.points[self.faces[:, 2]] -
-                           self.points[self.faces[:, 0]])
         force = self.pressure[self.faces].sum(axis=1)
         weight = force if force.any() else np.ones(len(force))
-        return int(np.argmax(weight @ np.abs(normals)))
+        return int(np.argmax(weight @ np.abs(self.normals())))
 
-    def direction(self):
-        """Return whether the side looks along its normal() axis, 1, or against it, -1."""
+    def normals(self):
+        """Return the normals of 3D faces, with twice their areas as lengths."""
+        first, second, third = (self.points[self.faces[:, k]] for k in range(3))
+        return np.cross(second - first, third - first)
+
+    def unrolled(self, bore):
+        """Return the side in the plane of the angle and the place along the axis of a bore."""
         corners = self.points[self.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        return 1. if normals[:, self.normal()].sum() >= 0. else -1.
+        side, nodes = copy.copy(self), self.faces.ravel()
+        side.points = np.stack([bore.of_faces(corners), corners[..., bore.axis],
+                                0. * corners[..., 0]], axis=-1).reshape(-1, 3)
+        side.nodes = np.arange(len(nodes))
+        side.faces = side.nodes.reshape(self.faces.shape)
+        side.values, side.pressure = self.values[nodes], self.pressure[nodes]
+        side.dotted = np.flatnonzero(np.isin(nodes, self.dotted))
+        return side
 
     def peaks(self):
         """Return where the pressure is largest, or as good as that."""
@@ -75,10 +86,12 @@ class Side:
         loaded = np.unique(self.faces[(self.pressure[self.faces] > 0.).any(axis=1)])
         return Window(self.points[loaded if len(loaded) else self.nodes], self.normal())
 
-    def curve(self):
+    def curve(self, bore=None):
         """Return where to draw the two ends of the faces of a 2D side, and what the
-        place is called: the coordinate along it, or its arc length where the
-        side turns away from that by more than 45 degrees."""
+        place is called: the angle about a bore, the coordinate along it, or its arc length where
+        the side turns away from that by more than 45 degrees."""
+        if bore:
+            return bore.of_faces(self.points[self.faces]), bore.name
         along = 1 - self.normal()
         ends = self.points[self.faces]
         steps = ends[:, 1, :2] - ends[:, 0, :2]
@@ -114,26 +127,29 @@ class Side:
 Curve = collections.namedtuple("Curve", "places values name loaded")
 
 
-def along_flat(side):
+def along_flat(side, bore):
     """Return the Curve of a 2D side."""
-    places, name = side.curve()
+    places, name = side.curve(bore)
     order = np.argsort(places.ravel(), kind="stable")
     nodes = side.faces.ravel()[order]
     return Curve(places.ravel()[order], side.values[nodes], name, side.pressure[nodes] > 0.)
 
 
-def along_cut(side, field, axis, plane, pair):
+def along_cut(side, field, axis, plane, pair, bore):
     """Return the Curve of a 3D side in a plane across an axis, along the other axis of the
-    side."""
+    side, or over the angle about a bore."""
     cut = cells_at(side.grid, plane)
     used = np.unique(np.concatenate([*lists_of(cut.GetLines()), np.zeros(0, dtype=int)]))
     if len(used) == 0:
         return None
     used = used[np.abs(array_of(cut, "pair")[used] - pair) < 1e-6]
     along = next(k for k in range(3) if k not in (axis, side.normal()))
-    order = used[np.argsort(points_of(cut)[used, along], kind="stable")]
-    return Curve(points_of(cut)[order, along], magnitude_of(cut, field.array)[order],
-                 AXES[along], array_of(cut, "pressure")[order] > 0.)
+    name, places = AXES[along], points_of(cut)[:, along]
+    if bore and axis == bore.axis:
+        name, places = bore.name, bore.angles(points_of(cut))
+    order = used[np.argsort(places[used], kind="stable")]
+    return Curve(places[order], magnitude_of(cut, field.array)[order], name,
+                 array_of(cut, "pressure")[order] > 0.)
 
 
 def slave_sides(states, field=FIELDS[0]):
@@ -153,7 +169,7 @@ def names_of(summary, sides):
     return [pairs[pair]["name"].split(":")[0] for pair in sides]
 
 
-def draw_contact(directory, states, summary, units, options, planes):
+def draw_contact(run, states, planes):
     """Draw the first and the last state into a picture for each of FIELDS that the states have.
     planes: (axis, place, vtkPlane) of the cuts of the states, None for flat bodies."""
     for field in FIELDS:
@@ -162,57 +178,63 @@ def draw_contact(directory, states, summary, units, options, planes):
             continue
         sides = slave_sides(states, field)
         if not sides:
-            print(f"plot: no contact faces in '{directory}', no {field.picture}")
+            print(f"plot: no contact faces in '{run.directory}', no {field.picture}")
             continue
-        label = units.label(field.label, getattr(units, field.unit))
         groups = []
         loaded = max(sides, key=lambda pair: max(side.peak() for side in sides[pair]))
-        for (pair, row), name in zip(sides.items(), names_of(summary, sides)):
-            heads = [", ".join(filter(None, words)) for words in
-                     zip(len(states) * [name], titles(states))]
-            if row[0].flat:
-                curves = [along_flat(side) for side in row]
-            else:
-                groups += face_groups(row, heads, field, label, units, options)
-                curves = [along_cut(side, field, axis, plane, pair)
-                          for side, (axis, _, plane) in zip(row, planes)]
-            known = options.known if pair == loaded and field is FIELDS[0] else None
-            if all(curve is not None and len(curve.places) for curve in curves):
-                groups.append(curve_panels(curves, name, titles(states), label, units, known,
-                                           None if row[0].flat else planes))
-        dots = "" if row[0].flat else f"; dots: {field.dots}"
-        compose(field.title + dots, groups, directory, field.picture)
+        for (pair, row), name in zip(sides.items(), names_of(run.summary, sides)):
+            known = run.options.known if pair == loaded and field is FIELDS[0] else None
+            groups += groups_of(run, field, pair, row, name, states, planes, known)
+        dots = "" if all(row[0].flat for row in sides.values()) else f"; dots: {field.dots}"
+        compose(f"{run.title}: {field.title}{dots}", groups, run.directory, field.picture)
 
 
-def face_groups(row, heads, field, label, units, options):
-    """Return the panels of a 3D side: of each state the whole and, where it is small, the
-    contact."""
-    ends = scales([side.peak() for side in row],
-                  options.peak if field is FIELDS[0] else 0.)
-    return [face_group(side, head, end, label, units, options.view)
-            for side, head, end in zip(row, heads, ends)]
+def groups_of(run, field, pair, row, name, states, planes, known):
+    """Return the panels of a pair: the faces of bodies in space, and the curves."""
+    label = run.units.label(field.label, getattr(run.units, field.unit))
+    bore, groups = bore_of(row), []
+    if row[0].flat:
+        curves = [along_flat(side, bore) for side in row]
+    else:
+        heads = [", ".join(filter(None, words)) for words in zip(len(row) * [name], titles(states))]
+        ends = scales([side.peak() for side in row],
+                      run.options.peak if field is FIELDS[0] else 0.)
+        groups = [face_group(side, head, end, label, run, bore)
+                  for side, head, end in zip(row, heads, ends)]
+        curves = [along_cut(side, field, axis, plane, pair, bore)
+                  for side, (axis, _, plane) in zip(row, planes)]
+    if all(curve is not None and len(curve.places) for curve in curves):
+        groups.append(curve_panels(curves, name, titles(states), label, run.units, known,
+                                   None if row[0].flat else planes))
+    return groups
 
 
-def face_group(side, head, end, label, units, chosen):
+def face_group(side, head, end, label, run, bore):
+    """Return the panels of a 3D side: the whole and, where it is small, the contact."""
+    peak, extent = side.highest(), np.ptp(side.points[side.nodes], axis=0).max()
+    text = f"{head}\n× maximum {number_text(side.peak())} at {place_text(AXES, peak, extent)}"
+    chosen, scale = run.options.view, 1.
+    if bore and not chosen:
+        side, view, scale = side.unrolled(bore), bore.view(), np.array([bore.arc(), 1.])
+        text += f"\nunrolled about {AXES[bore.axis]} at radius {number_text(bore.radius)}"
     normal = side.normal()
-    view = chosen or along_axis(normal)
+    if not bore or chosen:
+        view = chosen or along_axis(normal)
     places = view.project(side.points[side.nodes])
     whole = places.min(axis=0), places.max(axis=0)
     plane = [k for k in range(3) if k != normal]
     parts = [whole] + ([] if chosen else side.window().levels(plane, *whole))
-    text = f"× maximum {number_text(side.peak())} at " + place_text(
-        AXES, side.highest(), np.ptp(side.points[side.nodes], axis=0).max())
     panels = []
     for level, part in enumerate(parts):
-        ratio, stretch = proportions(*part, 4. if level else 10.)
-        title = f"{head}\n{text}".strip() if level == 0 else \
+        ratio, stretch = proportions(*(corner * scale for corner in part), 4. if level else 10.)
+        title = text.strip() if level == 0 else \
             "at the contact" if level == len(parts) - 1 else "around the contact"
-        if abs(stretch - 1.) > .05:
-            title += f", stretched {max(stretch, 1. / stretch):.3g} times"
+        if view.names:
+            title += stretched_by(view.names, stretch)
         outlined = (parts[level + 1], plane) if level + 1 < len(parts) else None
-        panels.append(Panel(
-            ratio, title, lambda axis, part=part, stretch=stretch, outlined=outlined: draw_face(
-                axis, side, view, part, end, units, stretch != 1., outlined)))
+        fills = stretch != 1. or bool(bore)
+        panels.append(Panel(ratio, title, lambda axis, part=part, outlined=outlined, fills=fills:
+                            draw_face(axis, side, view, part, end, run.units, fills, outlined)))
     panels[-1] = panels[-1]._replace(scale=label)
     return panels
 
@@ -227,6 +249,12 @@ def draw_face(axis, side, view, part, end, units, stretched, outlined):
         axis.plot(*view.project(side.points[side.dotted]).T, ".", color="white", markersize=2.)
     mark(axis, view.project(side.highest()))
     return image
+
+
+def names_in(curves, heads, known):
+    """Return the names in the legend of curves, none if there is one curve only."""
+    return [head or "Snug" for head in heads] + ([known.name] if known else []) \
+        if known or len(curves) > 1 else []
 
 
 def limits_of(curves):
@@ -250,16 +278,18 @@ def curve_panels(curves, name, heads, label, units, known, planes):
     title = ", ".join(filter(None, (name, *dict.fromkeys(cuts))))
     peaks = [curve.values.max() for curve in curves]
     panels = [Panel(1.5 if planes else 2., title, lambda axis: draw_curves(
-        axis, curves, heads, label, units, known))]
+        axis, curves, heads, label, units, known), legend=names_in(curves, heads, known))]
     if len(curves) > 1 and 0. < peaks[-1] < 0.5 * max(peaks):
-        panels.append(Panel(2.2, "after, on its own scale", lambda axis: draw_curves(
-            axis, curves[-1:], heads[-1:], label, units, known, "C1")))
+        panels.append(Panel(1.5, "after, on its own scale", lambda axis: draw_curves(
+            axis, curves[-1:], heads[-1:], label, units, known, "C1"),
+            legend=names_in(curves[-1:], heads[-1:], known)))
     return [panel._replace(ratio=1.5) for panel in panels] if len(panels) > 1 else panels
 
 
 def draw_curves(axis, curves, heads, label, units, known, colour=None):
     low, high = limits_of(curves)
-    has_legend = known or any(heads)
+    margin = .04 * (high - low)
+    axis.set_xlim(low - margin, high + margin)
     for number, (curve, head) in enumerate(zip(curves, heads)):
         of_curve = colour or f"C{number}"
         axis.plot(curve.places, curve.values, ".-", markersize=4, color=of_curve,
@@ -267,18 +297,14 @@ def draw_curves(axis, curves, heads, label, units, known, colour=None):
         top = np.argmax(curve.values)
         axis.plot(curve.places[top], curve.values[top], "x", color=of_curve, markersize=8.,
                   markeredgewidth=2.)
-        axis.annotate(number_text(curve.values[top]), (curve.places[top], curve.values[top]), (0., 6.),
-                      textcoords="offset points", color=of_curve, ha="center")
-    margin = .04 * (high - low)
-    axis.set_xlim(low - margin, high + margin)
+        write_beside(axis, (curve.places[top], curve.values[top]),
+                     number_text(curve.values[top]), of_curve)
     largest = max(curve.values.max() for curve in curves)
     if known:
         axis.plot(known.places, known.values, "k--", linewidth=1.2, label=known.name)
         inside = known.values[(known.places >= low) & (known.places <= high)]
         largest = max(largest, min(inside.max(initial=0.), 1.3 * largest))
-    axis.set_ylim(0., (1.35 if has_legend else 1.18) * largest or 1.)
+    axis.set_ylim(0., 1.18 * largest or 1.)
     axis.set_xlabel(units.place(curves[0].name))
     axis.set_ylabel(label)
     axis.grid(True, alpha=0.3)
-    if has_legend:
-        axis.legend(ncols=2, loc="upper right")

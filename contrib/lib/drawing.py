@@ -1,4 +1,7 @@
-"""What all pictures share: panels in rows, colours, marks, units, and small files."""
+"""What all pictures share: panels in rows, colours, marks, units, and small files.
+
+Colours are those of one convention: COLOURS, which are sequential, for stress, pressure and depth
+from zero on, and CHANGES, which diverge, for signed changes with zero in the middle."""
 
 import collections
 import io
@@ -16,12 +19,18 @@ from PIL import Image
 COLOURS, CHANGES = "viridis", "RdBu_r"
 WIDTH, LOW, HEIGHT = 11., 2.2, 3.6  # of a picture; of panels, at least and at most [inches]
 LEFT, RIGHT, TOP, BOTTOM, SCALE = .88, .18, .3, .5, .95  # margins of a panel
+LEGEND = .26  # height of a legend above a panel
 plt.rcParams.update({"font.size": 10., "axes.titlesize": 10., "legend.fontsize": 9.,
                      "axes.formatter.limits": (-3, 5), "axes.formatter.use_mathtext": True})
 
 # A panel: its width over its height, a title of some lines, draw(axis), which returns an image
-# if there is one, and the label of the colour bar of the image, or "".
-Panel = collections.namedtuple("Panel", "ratio title draw scale", defaults=[""])
+# if there is one, the label of the colour bar of the image, or "", and the names in its legend,
+# which is above the panel, so that it hides no curve.
+Panel = collections.namedtuple("Panel", "ratio title draw scale legend", defaults=["", ()])
+
+# What the pictures of a directory share: the model with the load case, Units, summary, options and
+# the Obstacles.
+Run = collections.namedtuple("Run", "directory title units summary options obstacles")
 
 
 class Units:
@@ -36,14 +45,14 @@ class Units:
         return f"{quantity} [{unit}]" if unit else quantity
 
     def place(self, axis):
-        return self.label(axis, self.length)
+        return self.label(axis, "degrees" if axis.startswith("angle") else self.length)
 
 
 def titles(states):
     """Return one title per state; a single state needs none."""
     if len(states) == 1:
         return [""]
-    return [f"before (iteration {states[0].time:g})", f"after (iteration {states[-1].time:g})"]
+    return ["before", f"after iteration {states[-1].time:g}"]
 
 
 def scales(peaks, given=0.):
@@ -58,8 +67,9 @@ def size_of(panel, height):
     """Return the width and height of a panel with its margins."""
     lines = panel.title.splitlines()
     widths = [height * panel.ratio] + [.083 * len(line) - .5 for line in lines]
+    widths.append(sum(.085 * len(name) + .5 for name in panel.legend) - .5)
     return (LEFT + max(widths) + (SCALE if panel.scale else 0.) + RIGHT,
-            TOP / 3 + .2 * len(lines) + .1 + BOTTOM + height)
+            TOP / 3 + .2 * len(lines) + .1 + BOTTOM + height + (LEGEND if panel.legend else 0.))
 
 
 def arrange(groups):
@@ -103,8 +113,11 @@ def compose(title, groups, directory, name):
             width, drawn = size_of(panel, height)[0], height * panel.ratio
             left = x + LEFT + (width - LEFT - RIGHT - (SCALE if panel.scale else 0.) - drawn) / 2.
             axis = figure.add_axes([left / wide, y / total, drawn / wide, height / total])
-            axis.set_title(panel.title)
+            axis.set_title(panel.title, pad=6. + (72. * LEGEND if panel.legend else 0.))
             image = panel.draw(axis)
+            if panel.legend:
+                axis.legend(ncols=len(panel.legend), loc="lower center", frameon=False,
+                            bbox_to_anchor=(.5, 1.), borderaxespad=.2, columnspacing=1.2)
             axis.xaxis.set_major_locator(MaxNLocator(int(np.clip(drawn / .6, 1, 7))))
             axis.yaxis.set_major_locator(MaxNLocator(int(np.clip(height / .5, 1, 6))))
             if panel.scale:
@@ -174,6 +187,21 @@ def proportions(low, high, longest=4.):
         return ratio, 1.
     shown = min(max(ratio, 0.5), 2.5)
     return shown, ratio / shown
+
+
+def stretched_by(names, stretch):
+    """Return ', y stretched 20 times', or nothing if a panel is to scale."""
+    if abs(stretch - 1.) <= .05:
+        return ""
+    return f", {names[int(stretch > 1.)]} stretched {max(stretch, 1. / stretch):.3g} times"
+
+
+def write_beside(axis, place, text, colour):
+    """Write the value of a peak above its place, so that the text is within the frame."""
+    low, high = axis.get_xlim()
+    share = (place[0] - low) / (high - low)
+    side = "left" if share < .08 else "right" if share > .92 else "center"
+    axis.annotate(text, place, (0., 6.), textcoords="offset points", color=colour, ha=side)
 
 
 def mark(axis, place):

@@ -75,7 +75,8 @@ def flat_punch(summary):
 
 
 def pin_in_hole(summary):
-    """Return the pressure of Persson over the arc length from the bottom of the hole of radius 1."""
+    """Return the pressure of Persson over the angle, whose bottom is at -90 degrees, of a hole of
+    radius 1."""
     load, b = 2 * force(summary, 1), PERFECT_FIT
     r, end = math.sqrt(1 + b * b), 2 * math.atan(b)
 
@@ -85,7 +86,8 @@ def pin_in_hole(summary):
         return load * (2 * root / (math.pi * r * (1 + y * y)) +
                        math.log((r + root) / (r - root)) / (2 * math.pi * b * b * r * r))
     places = samples(0., end)
-    return "Persson", places, [pressure(angle) for angle in places]
+    return ("Persson", [math.degrees(angle) - 90. for angle in places],
+            [pressure(angle) for angle in places])
 
 
 def hip_joint(_):

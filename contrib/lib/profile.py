@@ -7,8 +7,10 @@ import os
 import numpy as np
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
-from drawing import CHANGES, COLOURS, Panel, compose, frame, proportions, scales
+from drawing import (CHANGES, COLOURS, Panel, compose, frame, number_text, proportions, scales,
+                     stretched_by)
 from states import PlotError, existing
+from unrolled import fitted
 from views import AXES, along_axis
 
 # A piece has a drop to draw if no normal is inclined by more than 60 degrees to their mean.
@@ -32,6 +34,16 @@ class Piece:
         mean = normals.mean(axis=0)
         self.is_flat = np.min(normals @ mean) > LEAST_COSINE * np.linalg.norm(mean)
         self.normal = int(np.argmax(np.abs(mean)))
+        self.bore = None if self.is_flat else self.fitted_bore(normals)
+
+    def fitted_bore(self, normals):
+        """Return the Bore that the piece is, with its points in three dimensions, or None."""
+        if self.arc_length is not None:
+            self.points = np.pad(self.points, ((0, 0), (0, 1)))
+        bore = fitted(self.points, normals if self.arc_length is None else None)
+        if bore:
+            bore.place(self.points, np.zeros(len(self.points)))
+        return bore
 
 
 def read_pieces(path):
@@ -48,7 +60,6 @@ def read_pieces(path):
 def draw_heights(axis, places, drops, place, units):
     for drop, head in zip(drops, TITLES):
         axis.plot(places, -drop, ".-", markersize=3, label=head)
-    axis.legend()
     finish(axis, place, units.label("height", units.length))
 
 
@@ -66,18 +77,22 @@ def finish(axis, place, label):
 
 def heights_panel(name, places, place, drops, units):
     return Panel(1.4, f"{name}, height against the highest point",
-                 lambda axis: draw_heights(axis, places, drops, place, units))
+                 lambda axis: draw_heights(axis, places, drops, place, units), legend=TITLES)
 
 
 def curve_group(piece, units):
     """Return the panels of a 2D piece: the heights of both shapes, unless the piece turns too far,
-    and the change."""
+    and the change, which of a bore is over the angle."""
     place, change = units.place("length along the face"), units.label("change", units.length)
-    panels = [heights_panel(piece.name, piece.arc_length, place, piece.drops, units)] \
+    places, move = piece.arc_length, piece.move
+    if piece.bore:
+        places, place = piece.bore.angles(piece.points), units.place(piece.bore.name)
+        order = np.argsort(places, kind="stable")
+        places, move = places[order], move[order]
+    panels = [heights_panel(piece.name, places, place, piece.drops, units)] \
         if piece.is_flat else []
     return panels + [Panel(1.4 if panels else 2., f"{piece.name}, change along the normal",
-                           lambda axis: draw_change(axis, piece.arc_length, piece.move, place,
-                                                    change))]
+                           lambda axis: draw_change(axis, places, move, place, change))]
 
 
 def draw_map(axis, view, places, values, ends, colours, units, stretched):
@@ -86,6 +101,24 @@ def draw_map(axis, view, places, values, ends, colours, units, stretched):
                            vmin=first, vmax=last if last > first else first + 1.)
     frame(axis, view, places.min(axis=0), places.max(axis=0), units, stretched)
     return image
+
+
+def change_text(move):
+    return f"change along the normal\nfrom {number_text(move.min())} to {number_text(move.max())}"
+
+
+def change_panel(piece, units):
+    """Return the map of the change of a bore, unrolled over the angle."""
+    bore = piece.bore
+    view = bore.view()
+    places = np.column_stack([bore.angles(piece.points), piece.points[:, bore.axis]])
+    ratio, stretch = proportions(*(corner * [bore.arc(), 1.] for corner in
+                                   (places.min(axis=0), places.max(axis=0))))
+    title = f"{piece.name}, {change_text(piece.move)}" + stretched_by(view.names, stretch)
+    bound = np.abs(piece.move).max()
+    return Panel(ratio, title, lambda axis: draw_map(
+        axis, view, places, piece.move, (-bound, bound), CHANGES, units, True),
+        units.label("change", units.length))
 
 
 def map_panels(piece, units):
@@ -97,14 +130,14 @@ def map_panels(piece, units):
     depth, change = units.label("depth", units.length), units.label("change", units.length)
     bound = np.abs(piece.move).max()
     ends = scales([drop.max() for drop in piece.drops])
-    drawn = [(f"{piece.name}, {head}\nup to {drop.max():.4g} below the highest point", drop,
+    drawn = [(f"{piece.name}, {head}\nup to {number_text(drop.max())} below the highest point", drop,
               (0., end), COLOURS, depth)
              for drop, head, end in zip(piece.drops, TITLES, ends)]
-    drawn.append((f"change along the normal\nfrom {piece.move.min():.4g} to {piece.move.max():.4g}", piece.move,
-                  (-bound, bound), CHANGES, change))
-    return [Panel(ratio, title, lambda axis, values=values, of=of, colours=colours: draw_map(
-        axis, view, places, values, of, colours, units, stretch != 1.), label)
-        for title, values, of, colours, label in drawn]
+    drawn.append((change_text(piece.move), piece.move, (-bound, bound), CHANGES, change))
+    return [Panel(ratio, title + stretched_by(view.names, stretch),
+                  lambda axis, values=values, of=of, colours=colours: draw_map(
+                      axis, view, places, values, of, colours, units, stretch != 1.), label)
+            for title, values, of, colours, label in drawn]
 
 
 def middle_panel(piece, units):
@@ -121,15 +154,17 @@ def middle_panel(piece, units):
     return heights_panel(name, line[:, along], units.place(view.names[along]), drops, units)
 
 
-def draw_profile(directory, units):
-    """Draw shape.png; faces of 3D bodies that turn too far are left out."""
+def draw_profile(directory, model, units):
+    """Draw shape.png; faces of 3D bodies that turn too far and are no bores are left out."""
     groups = []
     for piece in read_pieces(existing(os.path.join(directory, "profile.csv"))):
         if piece.arc_length is not None:
             groups.append(curve_group(piece, units))
+        elif piece.bore:
+            groups.append([change_panel(piece, units)])
         elif piece.is_flat:
             maps = map_panels(piece, units)
             groups += [maps[:2], [maps[2], middle_panel(piece, units)]]
     if groups:
-        compose("Shaped faces without load, before and after the optimization", groups, directory,
-                "shape.png")
+        compose(f"{model}: shaped faces without load, before and after the optimization", groups,
+                directory, "shape.png")

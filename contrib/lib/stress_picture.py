@@ -4,25 +4,33 @@ from matplotlib.collections import LineCollection
 import numpy as np
 
 from drawing import (Panel, compose, frame, mark, number_text, outline_window, paint, place_text,
-                     proportions, scales, titles)
+                     proportions, scales, stretched_by, titles)
+from obstacles import draw_obstacles, widened
 from sections import bounds_of, halves, section
+from unrolled import bore_of
 from views import AXES, along_axis, oblique
 
 
 class Drawn:
-    """This class has what is drawn of one state: the section, and the window of the contact."""
+    """This class has what is drawn of one state: the section, the windows of the contact, and the
+    obstacles."""
 
-    def __init__(self, state, side, plane):
+    def __init__(self, state, side, plane, obstacles):
         axis, self.place, self.plane = plane
-        self.state, self.axis = state, axis
+        self.state, self.axis, self.obstacles = state, axis, obstacles
         self.faces = section(state, self.plane)
         self.view = along_axis(2 if axis is None else axis)
         self.coordinates = [k for k in range(3) if k != (2 if axis is None else axis)]
         self.peak = self.faces.values.max(initial=0.)
         self.highest = self.faces.points[np.argmax(self.faces.values)]
         low, high = self.faces.points.min(axis=0), self.faces.points.max(axis=0)
-        self.whole = low[self.coordinates], high[self.coordinates]
+        self.whole = widened(obstacles, low[self.coordinates], high[self.coordinates],
+                             self.coordinates, self.place or 0.)
         self.windows = side.window().levels(self.coordinates, *self.whole) if side else []
+
+    def add_obstacles(self, axis, view, level):
+        draw_obstacles(axis, self.obstacles, view, *[self.whole, *self.windows][level],
+                       self.coordinates, self.place or 0.)
 
     def mark(self, axis, view, level):
         """Mark the peak and the window of the next level, if there is one."""
@@ -36,6 +44,9 @@ def cut_axis(side):
     shortest, so that the cut shows its length; y if there is no difference."""
     if side is None:
         return 1
+    bore = bore_of([side])
+    if bore:
+        return bore.axis  # the cut shows the whole circle
     normal, size = side.normal(), side.window().size
     first, second = (1, 0) if normal == 2 else (2, 0) if normal == 1 else (1, 2)
     return second if size[second] < 0.8 * size[first] else first
@@ -58,6 +69,7 @@ def place_of_cut(state, side, axis):
 def draw_section(axis, drawn, level, ends, units, stretched):
     """Draw the whole section, level 0, or one of its windows."""
     faces = drawn.faces
+    drawn.add_obstacles(axis, drawn.view, level)
     image = paint(axis, drawn.view, faces.points, faces.polygons, faces.values, ends)
     axis.add_collection(LineCollection(drawn.view.project(faces.lines), colors="black",
                                        linewidths=.7))
@@ -75,6 +87,11 @@ def draw_half(axis, drawn, view, side, ends, units):
         axis.add_collection(LineCollection(view.project(faces.lines), colors="black",
                                            linewidths=.6, zorder=1.5 + layer))
     places = view.project(np.concatenate([faces.points for faces in bodies]))
+    if drawn.obstacles:
+        drawn.add_obstacles(axis, view, 0)
+        corners = np.full((2, 3), drawn.place)
+        corners[:, drawn.coordinates] = drawn.whole
+        places = np.concatenate([places, view.project(corners)])
     frame(axis, view, places.min(axis=0), places.max(axis=0), units)
     drawn.mark(axis, view, 0)
     return image
@@ -99,8 +116,7 @@ def half_panel(drawn, title, ends, units, chosen):
 
 def section_panel(drawn, level, title, ends, units, scale):
     ratio, stretch = proportions(*[drawn.whole, *drawn.windows][level], 4. if level else 10.)
-    if abs(stretch - 1.) > .05:
-        title += f", stretched {max(stretch, 1 / stretch):.3g} times"
+    title += stretched_by(drawn.view.names, stretch)
     return Panel(ratio, title, lambda panel: draw_section(
         panel, drawn, level, ends, units, stretch != 1.), scale)
 
@@ -125,12 +141,13 @@ def group_of(drawn, title, end, units, chosen):
     return panels
 
 
-def draw_von_mises(directory, states, sides, units, view, planes):
+def draw_von_mises(run, states, sides, planes):
     """Draw von-mises.png. sides: of each state the slave side with the largest pressure, or None;
     planes: (axis, place, vtkPlane) of the cuts of the states, None for flat bodies."""
-    drawn = [Drawn(state, side, plane) for state, side, plane in
+    drawn = [Drawn(state, side, plane, run.obstacles) for state, side, plane in
              zip(states, sides, planes or [(None, None, None)] * len(states))]
     ends = scales([of_state.peak for of_state in drawn])
-    groups = [group_of(of_state, title, end, units, view)
+    groups = [group_of(of_state, title, end, run.units, run.options.view)
               for of_state, title, end in zip(drawn, titles(states), ends)]
-    compose("Von Mises stress on the deformed bodies", groups, directory, "von-mises.png")
+    compose(f"{run.title}: von Mises stress on the deformed bodies", groups, run.directory,
+            "von-mises.png")

@@ -15,6 +15,7 @@
 #include <snug/cad/translate.h>
 #include <snug/deck/translation.h>
 #include <snug/feti/sparse_factor.h>
+#include <snug/io/fields.h>
 #include <snug/io/summary.h>
 #include <snug/io/text_file.h>
 #include <snug/mesh_file/deck_text.h>
@@ -66,8 +67,32 @@ void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned 
   print_cost_estimate(context, scene, *mesh, ranks > 0 ? ranks : context.n_ranks(), true);
 }
 
+/// Write the entries and the bodies without a load into the directory 'model' of the output
+/// directory, for a picture. Collective.
 template <int dim>
-void validate_in(RunContext &context, const scene::Scene &scene)
+void write_model(RunContext                                &context,
+                 const ShapeProblem<dim>                   &problem,
+                 const typename mesh::BodyMesh<dim>::Field &positions)
+{
+  scene::Scene scene = problem.scene;
+  scene.output_directory += "/model";
+  scene.output.fields.clear();
+  prepare_output(context, scene);
+  std::vector<std::string> names;
+  for (const auto &body : scene.bodies)
+    names.push_back(body.name);
+  state::ContactState<dim> at_rest;
+  at_rest.positions = positions;
+  at_rest.displacement.resize(positions.size());
+  const auto &model = problem.solver->model();
+  for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
+    io::FieldOutput<dim>(output_directories(scene)[problem.n_load_cases() > 1 ? c + 1 : 0],
+                         scene.output, names)
+      .write({*problem.mesh, problem.tearing, model.bodies, model.load_cases[c]}, 0., at_rest);
+}
+
+template <int dim>
+void validate_in(RunContext &context, const scene::Scene &scene, const bool writes)
 {
   auto mesh = timed_mesh<dim>(context, scene);
   print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
@@ -86,6 +111,8 @@ void validate_in(RunContext &context, const scene::Scene &scene)
     with_file_context(scene, [&]() {
       throw_collectively(context.communicator(), [&]() { problem.solver->loads(positions, c); });
     });
+  if (writes)
+    write_model(context, problem, positions);
 }
 
 void print_program(RunContext &context)
@@ -224,12 +251,12 @@ void run_study(RunContext &context, const scene::Scene &given, const Options &op
   warn_of_unused_petsc_options(context);
 }
 
-void validate(RunContext &context, const scene::Scene &scene)
+void validate(RunContext &context, const scene::Scene &scene, const bool writes)
 {
   if (scene.dimension == 2)
-    validate_in<2>(context, scene);
+    validate_in<2>(context, scene, writes);
   else
-    validate_in<3>(context, scene);
+    validate_in<3>(context, scene, writes);
 }
 
 namespace {
@@ -280,7 +307,7 @@ int run(const Options &options)
                          : estimate_in<3>(context, scene, options.ranks);
   else if (options.validate)
     {
-      validate(context, scene);
+      validate(context, scene, !options.output.empty());
       context.out(Verbosity::quiet) << options.file << " is valid" << std::endl;
     }
   else

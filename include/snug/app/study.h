@@ -13,10 +13,10 @@ namespace snug::app {
  */
 void run_study(RunContext &context, const scene::Scene &scene, const Options &options);
 
-/// Print what the meshes of a scene look like and make all that its task
-/// needs, but solve nothing and leave no files. Collective.
-/// @throws InputError.
-void validate(RunContext &context, const scene::Scene &scene);
+/// Print what the meshes of a scene look like and make all that its task needs, but solve nothing.
+/// @param[in] writes Whether the entries and the meshes are written to the directory 'model' of
+/// the output directory; else there are no files. Collective. @throws InputError.
+void validate(RunContext &context, const scene::Scene &scene, bool writes);
 
 /// Read the file of @p options and do what they ask, on all ranks of MPI_COMM_WORLD. The log goes
 /// to standard output. Collective. @return 0.
