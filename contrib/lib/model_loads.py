@@ -89,7 +89,7 @@ def draw_loads(axis, model):
             if kind == "Moment":
                 place = model.view.project(model.corners(boundary).mean(axis=(0, 1)))
                 axis.plot(*place, marker=marker, color=colour, markersize=16., zorder=70.)
-                write(axis, model, place - [0., .3 * model.length], label, colour)
+                write(axis, model, place - [0., .8 * model.length], label, colour)
                 continue
             arrows = draw_arrows(axis, model, arrows_of(model, kind, boundary, text), colour)
             if arrows:

@@ -232,7 +232,7 @@ def draw_list(axis, found):
     """Draw the list of what is drawn beside it."""
     axis.set_axis_off()
     more = [Patch(alpha=0., label=f"and {len(found) - MOST} more")] if len(found) > MOST else []
-    axis.legend(handles=found[:MOST] + more, loc="center left", bbox_to_anchor=(-.2, .5),
+    axis.legend(handles=found[:MOST] + more, loc="center",
                 frameon=False, fontsize=8.)
 
 
@@ -253,7 +253,7 @@ def group_of(model, title, units):
     """Return the panels of a load case: the whole, the contact if it is small, and the list."""
     found, window = [], window_of(model)
     ratio = np.divide(*(model.high - model.low + 2. * model.length))
-    panels = [Panel(float(np.clip(ratio, .4, 1.5 if window else 2.5)), title, lambda axis: found.extend(
+    panels = [Panel(float(np.clip(ratio, .4, 1.2 if window else 2.5)), title, lambda axis: found.extend(
         draw_model(axis, model, None, units)))]
     if window:
         panels.append(Panel(1., "at the contact", lambda axis: draw_model(

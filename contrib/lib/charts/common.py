@@ -5,7 +5,7 @@ import math
 import drawing  # noqa: F401  first: it chooses pictures without a display
 import matplotlib.pyplot as plt
 
-from runs import solve
+from runs import read_csv, solve, write_csv
 
 HERTZ_2D = "tests/scenes/hertz-2d-small.prm"
 HERTZ_3D = "tests/scenes/hertz-3d-small.prm"
@@ -19,6 +19,19 @@ COMPLIANCE = {"Optimization/Objective": "compliance"}
 FLOOR = 1e-16
 
 MARKERS = "osD^v<>Px*"
+
+# Whether charts are drawn from the numbers of an earlier measurement (contrib/chart --draw).
+drawn_again = False
+
+
+def numbers(path, measure):
+    """Return the rows of a file: those that measure() returns, which are written into it, or those
+    of an earlier measurement."""
+    if drawn_again:
+        return read_csv(path)
+    rows = measure()
+    write_csv(path, rows)
+    return rows
 
 
 def tolerance(value):

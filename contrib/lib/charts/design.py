@@ -4,7 +4,7 @@ the table of the paper."""
 import drawing
 
 from common import (COMPLIANCE, HERTZ_3D, add_legend, by, cells, curves, error, gradient,
-                    heights, panels, tolerance)
+                    heights, numbers, panels, tolerance)
 from runs import print_table, solve, write_csv
 
 STATE = ("assembly", "factorization", "soft_modes", "solve")
@@ -47,19 +47,18 @@ def variables_rows(n, quick):
 
 
 def draw_variables(output, quick):
-    rows = [row for n in ((2,) if quick else (1, 2, 4, 8, 16)) for row in variables_rows(n, quick)]
-    write_csv(output / "design-variables.csv", rows)
-    figure, (seconds, f_mults, errors) = panels(3)
+    rows = numbers(output / "design-variables.csv", lambda: [
+        row for n in ((2,) if quick else (1, 2, 4, 8, 16)) for row in variables_rows(n, quick)])
+    figure, (seconds, errors) = panels(2)
     order = list(by(rows, "method"))
     state = by(rows, "method")["adjoint"]
     seconds.loglog([row["variables"] for row in state],
                    [row["seconds of the state"] for row in state], "k--", label="the state")
     counts = sorted(by(rows, "variables"))
-    for axis, y in ((seconds, "seconds"), (f_mults, "F-mults")):
-        curves(axis, [row for row in rows if row[y] > 0], "method", "variables", y, order)
-        axis.set_ylabel(f"{'CPU ' if axis is seconds else ''}{y} of the gradient")
-        axis.set_xticks(counts, [str(count) for count in counts])
-        axis.minorticks_off()
+    curves(seconds, rows, "method", "variables", "seconds", order)
+    seconds.set_ylabel("CPU seconds of the gradient")
+    seconds.set_xticks(counts, [f"{count:g}" for count in counts])
+    seconds.minorticks_off()
     curves(errors, rows, "method", "seconds", "error of dJ", order)
     errors.set_xlabel("CPU seconds of the gradient")
     errors.set_ylabel("relative error of dJ, 1 to 256 variables")
@@ -117,8 +116,13 @@ def measure_searches(quick):
 
 
 def draw_searches(output, quick):
-    rows, table = measure_searches(quick)
-    write_csv(output / "design-searches.csv", rows)
+    table = []
+
+    def measured():
+        rows, of_searches = measure_searches(quick)
+        table.extend(of_searches)
+        return rows
+    rows = numbers(output / "design-searches.csv", measured)
     seconds = [row["seconds"] for row in rows]
     figure, axes = panels(2, 5.)
     for axis, (picture, group) in zip(axes, by(rows, "picture").items()):
@@ -131,8 +135,9 @@ def draw_searches(output, quick):
         axis.legend(fontsize="small", loc="lower left")
     figure.suptitle("Searches for the least potential energy at fixed volume, 9 heights")
     drawing.save(figure, output, "design-searches.png")
-    print_table([{**{key: value for key, value in row.items() if key != "picture"},
-                  "objective": f"{row['objective']:.8f}"} for row in table])
+    if table:
+        print_table([{**{key: value for key, value in row.items() if key != "picture"},
+                      "objective": f"{row['objective']:.8f}"} for row in table])
 
 
 # Of the paper, seconds: its state, and the derivatives one after the other and in parallel.

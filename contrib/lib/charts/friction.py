@@ -5,10 +5,9 @@ resultant of its loads passes through the middle of the contact. Without frictio
 guided and only pressed."""
 
 import drawing
-import matplotlib.pyplot as plt
 
-from common import BLOCKS, COMPLIANCE, by, cells, curves, legend_below
-from runs import print_table, solve, write_csv
+from common import BLOCKS, COMPLIANCE, by, cells, curves, legend_below, numbers, panels
+from runs import print_table, solve
 
 BLOCKS_3D = "tests/scenes/two-blocks-3d.prm"
 BODIES = ("upper", "lower")
@@ -65,33 +64,37 @@ CHARTS_OF_STATES = {
         lambda x: ({**mesh(2, 32, 8), "Body upper/Young's modulus": 1000 * x}, .3)),
     "3D: coefficient of friction": (3, [.05, .1, .2, .3, .6, 1.], lambda x: (mesh(3, 54, 4), x)),
     "3D: subdomains": (3, [16, 54, 128], lambda x: (mesh(3, x, 4), .3))}
+SHOWN = "2D: subdomains", "2D: coefficient of friction"  # in the picture
 QUICK = {"2D: coefficient of friction": [.3], "2D: subdomains": [8]}
 
 
-def draw(output, quick):
+def measure(quick):
     rows = []
     for chart, (dim, values, entries) in CHARTS_OF_STATES.items():
         for x in QUICK.get(chart, []) if quick else values:
             counts = f_mults(dim, *entries(x))
             rows += [{"chart": chart, "x": x, "curve": name, "F-mults": count}
                      for name, count in zip(CURVES, counts)]
-    write_csv(output / "friction.csv", rows)
+    return rows
+
+
+def draw(output, quick):
+    rows = numbers(output / "friction.csv", lambda: measure(quick))
     charts = by(rows, "chart")
     print_table([{"chart": chart, "curve": name,
                   **{key: " / ".join(f"{row[key]:g}" for row in group)
                      for key in ("x", "F-mults")}}
                  for chart, of_chart in charts.items()
                  for name, group in by(of_chart, "curve").items()])
-    figure, axes = plt.subplots(2, 3, figsize=(13., 8.), layout="constrained")
-    for axis, chart in zip(axes.flat, charts):
+    figure, axes = panels(2)
+    for axis, chart in zip(axes, SHOWN):
         curves(axis, charts[chart], "curve", "x", "F-mults", CURVES)
         axis.set_xlabel(chart)
         axis.set_ylabel("F-mults")
         axis.set_yscale("linear")
         axis.set_ylim(0)
-    for axis in axes.flat[len(charts):]:
-        axis.set_axis_off()
-    legend_below(figure, axes.flat, 5, .07)
+    figure.suptitle("F-mults of states with Coulomb friction and of their gradients")
+    legend_below(figure, axes, 3, .12)
     drawing.save(figure, output, "friction.png")
 
 

@@ -1,13 +1,14 @@
 """Charts of gradients: errors against steps, slenderness, tolerance, and across a weakly active
 contact."""
 
+import functools
+
 import drawing
-import matplotlib.pyplot as plt
 from matplotlib.ticker import MaxNLocator
 
 from common import (BEAM, BLOCKS, COMPLIANCE, HERTZ_2D, HERTZ_3D, add_legend, by, compared,
-                    curves, error, gradient, panels, tolerance)
-from runs import RunError, print_table, solve, write_csv
+                    curves, error, gradient, legend_below, numbers, panels, tolerance)
+from runs import RunError, print_table, solve
 
 # Errors against steps. The line contact has nine heights under the cylinder.
 STEP_SCENES = {
@@ -43,25 +44,27 @@ def at_step(name, entries, step, derivatives, stencil):
             for title, method in shown.items()]
 
 
-def draw_steps(output, quick):
+def step_rows(quick):
     rows = []
     for name, (_, entries) in list(STEP_SCENES.items())[:1 if quick else 2]:
         entries = {**entries, **COMPLIANCE, **tolerance("1e-10" if quick else "1e-12")}
         for exponent in (4,) if quick else range(1, 11):
             for stencil in STENCILS:
                 rows += at_step(name, entries, f"1e-{exponent}", *stencil)
-    write_csv(output / "gradient-steps.csv", rows)
+    return rows
+
+
+def draw_steps(output, quick):
+    rows = numbers(output / "gradient-steps.csv", lambda: step_rows(quick))
     print_table(rows)
     scenes = by(rows, "scene")
-    figure, axes = plt.subplots(len(scenes), 2, squeeze=False, sharex=True, sharey=True,
-                                layout="constrained", figsize=(13., 3.6 * len(scenes) + 0.6))
-    for line, (scene, group) in zip(axes, scenes.items()):
-        for axis, quantity in zip(line, ("error of dJ", "error of u'")):
-            curves(axis, group, "method", "step", quantity)
-            axis.set_title(f"{scene}: {quantity}", fontsize="medium")
-        line[0].set_ylabel("relative error")
+    figure, axes = panels(len(scenes), 5.)
+    for axis, (scene, group) in zip(axes, scenes.items()):
+        curves(axis, group, "method", "step", "error of dJ")
+        axis.set_title(scene, fontsize="medium")
+        axis.set_ylabel("relative error of dJ")
     figure.suptitle("Error against step: of cell size (semi-analytic), of bound width (overall)")
-    add_legend(axes[0, 1], *axes[0, 0].get_legend_handles_labels())
+    legend_below(figure, axes, 4, .12)
     drawing.save(figure, output, "gradient-steps.png")
 
 
@@ -94,9 +97,9 @@ def slender_rows(slenderness):
 
 
 def draw_slender(output, quick):
-    rows = [row for slenderness in ((5, 20) if quick else REFERENCE)
-            for row in slender_rows(slenderness)]
-    write_csv(output / "gradient-slender.csv", rows)
+    rows = numbers(output / "gradient-slender.csv", lambda: [
+        row for slenderness in ((5, 20) if quick else REFERENCE)
+        for row in slender_rows(slenderness)])
     print_table(rows)
     figure, (axis,) = panels(1, 5.)
     for row in rows:
@@ -109,7 +112,7 @@ def draw_slender(output, quick):
                          for place in places], "k:", label="(L/H)²")
     axis.set_ylabel("relative error of dC/dL")
     axis.set_title("Cantilever, length as variable")
-    axis.set_xticks(places, [str(place) for place in places])
+    axis.set_xticks(places, [f"{place:g}" for place in places])
     axis.minorticks_off()
     add_legend(axis)
     drawing.save(figure, output, "gradient-slender.png")
@@ -131,13 +134,17 @@ def tolerance_rows(objective, exponent, reference):
             if (objective == "compliance") == (method != "energy")]
 
 
-def draw_tolerances(output, quick):
+def all_tolerance_rows(quick):
     rows = []
     for objective in ("compliance", "potential energy"):
         exact = compared(HERTZ_3D, {"Optimization/Objective": objective, **tolerance("1e-13")})
         for exponent in (6,) if quick else range(2, 13):
             rows += tolerance_rows(objective, exponent, exact["direct"]["values"])
-    write_csv(output / "gradient-tolerances.csv", rows)
+    return rows
+
+
+def draw_tolerances(output, quick):
+    rows = numbers(output / "gradient-tolerances.csv", lambda: all_tolerance_rows(quick))
     print_table(rows)
     figure, (axis,) = panels(1, 5.)
     curves(axis, rows, "method", "tolerance", "error of dJ")
@@ -210,14 +217,13 @@ def path_rows(load, j, quick):
 
 
 def draw_weak(output, quick):
-    load = weakening_pressure()
-    sides = side_rows(load)
+    load = functools.cache(weakening_pressure)
+    sides = numbers(output / "gradient-weak.csv", lambda: side_rows(load()))
     widest = max(sides, key=lambda row: abs(row["QP, up"] - row["QP, down"]))
-    path = path_rows(load, widest["variable"], quick)
-    write_csv(output / "gradient-weak.csv", sides)
+    path = numbers(output / "gradient-weak-path.csv",
+                   lambda: path_rows(load(), widest["variable"], quick))
     print_table([{key: f"{value:.6f}" if isinstance(value, float) else value
                   for key, value in row.items()} for row in sides])
-    write_csv(output / "gradient-weak-path.csv", path)
     figure, (compliance, energy) = panels(2)
     parts = {compliance: [[row for row in path if row["load"] < 0.],
                           [row for row in path if row["load"] > 0.]], energy: [path]}
@@ -233,7 +239,7 @@ def draw_weak(output, quick):
         compliance.plot(0., widest[name], style, markersize=8, label=name, fillstyle="none")
     compliance.set_title("compliance, by the adjoint method")
     energy.set_title("potential energy")
-    compliance.set_ylabel(f"derivative by height {widest['variable']}")
+    compliance.set_ylabel(f"derivative by height {widest['variable']:g}")
     compliance.legend(fontsize="small")
     figure.suptitle("Across a weakly active contact")
     drawing.save(figure, output, "gradient-weak.png")

@@ -7,8 +7,8 @@ prm/point-contact.prm. The linear problem is one body of both blocks on the same
 import drawing
 
 import known_answers
-from common import BEAM, by, cells, curves, legend_below, panels
-from runs import print_table, solve, write_csv
+from common import BEAM, by, cells, curves, legend_below, numbers, panels
+from runs import print_table, solve
 
 # program: scene, unknowns, error of p0 in percent, seconds, those of its own linear solve;
 # all on the same meshes, on one core of one machine
@@ -81,8 +81,7 @@ def measure(quick):
 
 
 def draw(output, quick):
-    rows = measure(quick)
-    write_csv(output / "precision-peers.csv", rows)
+    rows = numbers(output / "precision-peers.csv", lambda: measure(quick))
     order = sorted(by(rows, "program"), key=lambda name: (name != "Snug", name))
     figure, axes = panels(2, 5.)
     for axis, (scene, group) in zip(axes, by(rows, "scene").items()):

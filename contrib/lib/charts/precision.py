@@ -244,7 +244,8 @@ def measure(name, quick):
                     "scene": name, "series": series, "mesh": label, "quantity": quantity,
                     "unknowns": unknowns, "seconds": run.on_processor("total"),
                     "F-mults": run.state["f_mults"], "value": value,
-                    "error": abs(value / right - 1)})
+                    "error": abs(value / right - 1),
+                    "estimate": unsure.get(quantity) or ""})
                 if "tolerance" in scene.axes:
                     rows[-1]["tolerance"] = float(label)
     table = [{"quantity": quantity, "value": value if answers else closed, "closed form": closed,

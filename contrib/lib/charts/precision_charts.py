@@ -4,12 +4,11 @@ import functools
 import math
 
 import drawing
-import matplotlib.pyplot as plt
 
 import peers
 import precision
-from common import by, curves, legend_below
-from runs import print_table, write_csv
+from common import by, curves, legend_below, numbers, panels
+from runs import print_table
 
 TITLES = {
     "line": "Line contact, half width 0.05 of the body",
@@ -60,32 +59,30 @@ def errors(rows, all_runs):
     return table
 
 
-def draw_panels(name, rows, table):
+def draw_panels(name, rows):
+    """Draw the error of the largest pressure, or of the displacement if it is infinite, over
+    both costs. The table has the other quantities."""
     scene = precision.SCENES[name]()
     quantities = by(rows, "quantity")
-    order = list(by(rows, "series"))
-    figure, axes = plt.subplots(2, len(quantities), squeeze=False, sharey="col",
-                                layout="constrained", figsize=(3.9 * len(quantities) + 1., 8.))
-    for column, (quantity, group) in enumerate(quantities.items()):
-        for axis, x in zip(axes[:, column], scene.axes):
-            curves(axis, group, "series", x, "error", order)
-            if "unknowns" in scene.axes:
-                best = front(group, x)
-                axis.plot([row[x] for row in best], [row["error"] for row in best], "ko",
-                          markersize=9, fillstyle="none", label="best of all")
-            axis.set_xscale("linear" if x == "F-mults" else "log")
-            axis.set_xlabel(LABELS.get(x, x))
-            unsure = next(row["estimate"] for row in table if row["quantity"] == quantity)
-            if unsure:
-                low, high = axis.get_ylim()
-                axis.axhspan(low / 10., unsure, color="0.9", zorder=0,
-                             label="estimated error of the reference")
-                axis.set_ylim(low, high)
-        axes[0, column].set_title(quantity, fontsize="medium")
-    for axis in axes[:, 0]:
-        axis.set_ylabel("relative error")
+    quantity = "peak pressure" if "peak pressure" in quantities else "displacement"
+    group, order = quantities[quantity], list(by(rows, "series"))
+    figure, axes = panels(2)
+    for axis, x in zip(axes, scene.axes):
+        curves(axis, group, "series", x, "error", order)
+        if "unknowns" in scene.axes:
+            best = front(group, x)
+            axis.plot([row[x] for row in best], [row["error"] for row in best], "ko",
+                      markersize=9, fillstyle="none", label="best of all")
+        axis.set_xscale("linear" if x == "F-mults" else "log")
+        axis.set_xlabel(LABELS.get(x, x))
+        axis.set_ylabel(f"relative error of the {quantity}")
+        if unsure := group[0]["estimate"]:
+            low, high = axis.get_ylim()
+            axis.axhspan(low / 10., unsure, color="0.9", zorder=0,
+                         label="estimated error of the reference")
+            axis.set_ylim(low, high)
     figure.suptitle(TITLES[name])
-    legend_below(figure, axes.flat, max(3, 2 * len(quantities) - 3), .1)
+    legend_below(figure, axes, 4, .14)
     return figure
 
 
@@ -109,10 +106,16 @@ def print_tables(rows, table, failures):
 
 
 def draw(name, output, quick):
-    rows, table, failures = precision.measure(name, quick)
-    write_csv(output / f"precision-{name}.csv", rows)
-    drawing.save(draw_panels(name, rows, table), output, f"precision-{name}.png")
-    print_tables(rows, table, failures)
+    others = []
+
+    def measured():
+        rows, *rest = precision.measure(name, quick)
+        others.extend(rest)
+        return rows
+    rows = numbers(output / f"precision-{name}.csv", measured)
+    drawing.save(draw_panels(name, rows), output, f"precision-{name}.png")
+    if others:
+        print_tables(rows, *others)
 
 
 CHARTS = {**{name: functools.partial(draw, name) for name in precision.SCENES},

@@ -3,10 +3,9 @@
 The scene is a round block on another in 2D, each of m x m square subdomains of r x r cells."""
 
 import drawing
-import matplotlib.pyplot as plt
 
-from common import BLOCKS, by, cells, curves, legend_below, tolerance
-from runs import print_table, solve, write_csv
+from common import BLOCKS, by, cells, curves, legend_below, numbers, panels, tolerance
+from runs import print_table, solve
 
 ACTIVE, SMALSE = {}, {"Solver/Method": "SMALSE-M"}
 LUMPED, NONE = ({"Solver/Preconditioner": name} for name in ("lumped", "none"))
@@ -55,6 +54,8 @@ CHARTS_OF_STATES = {
         {**SCALINGS, "active set, B-bar": of_all("Formulation", "B-bar")}),
     "aspect of subdomains": ([1, 2, 4, 8, 16, 32], stretched, SCALINGS),
     "largest over smallest cell": ([1, 10, 100, 1000], graded, SCALINGS)}
+# The charts in the picture with their axes.
+SHOWN = {"subdomains": "subdomains of 8 x 8 cells", "H/h": "cells along the edge of a subdomain"}
 QUICK = {"tolerance": [1e-12, 1e-6], "H/h": [8], "subdomains": [32]}
 
 
@@ -92,22 +93,25 @@ def measure(quick):
 
 
 def draw(output, quick):
-    rows = measure(quick)
-    write_csv(output / "solvers.csv", rows)
+    rows = numbers(output / "solvers.csv", lambda: measure(quick))
     charts = by(rows, "chart")
     print_table([{"chart": chart, "solver": solver,
                   **{key: " / ".join(f"{row[key]:g}" for row in group)
                      for key in ("x", "F-mults")}}
                  for chart, of_chart in charts.items()
                  for solver, group in by(of_chart, "solver").items()])
-    shown = [(chart, "F-mults") for chart in charts] + [("subdomains", "seconds")]
-    figure, axes = plt.subplots(2, 4, figsize=(17., 8.), layout="constrained")
+    figure, axes = panels(2)
     order = sorted({row["solver"] for row in rows})
-    for axis, (chart, y) in zip(axes.flat, shown):
-        curves(axis, charts[chart], "solver", "x", y, order)
-        axis.set_xlabel(chart)
-        axis.set_ylabel(y)
-    legend_below(figure, axes.flat, 5, .07)
+    for axis, (chart, label) in zip(axes, SHOWN.items()):
+        curves(axis, charts[chart], "solver", "x", "F-mults", order)
+        values = sorted(by(charts[chart], "x"))
+        axis.set_xticks(values, [f"{x:g}" for x in values])
+        axis.set_yticks((10, 20, 40, 80), ("10", "20", "40", "80"))
+        axis.minorticks_off()
+        axis.set_xlabel(label)
+        axis.set_ylabel("F-mults")
+    figure.suptitle("F-mults of a state of two blocks in 2D")
+    legend_below(figure, axes, 4, .08)
     drawing.save(figure, output, "solvers.png")
 
 
