@@ -7,14 +7,15 @@ import pathlib
 import shutil
 import subprocess
 
-from known_answers import EQUAL, HIP_SECTION, PERFECT_FIT, moduli
+from known_answers import (EQUAL, HIP_SECTION, PERFECT_FIT, STIFF, lame_pressure, moduli,
+                           sinking)
 from runs import ROOT, RunError, run, solve
 
 # Names of pictures in doc/images with the pictures that contrib/plot draws of a scene with
-# entries; options of contrib/plot; known(summary): the name of a known answer, its places and
-# pressures.
-Picture = collections.namedtuple("Picture", "scene images entries options known",
-                                 defaults=[(), (), None])
+# entries; options of contrib/plot; known(summary), shape(summary): the name of a known answer, its
+# places and pressures, or heights of the shaped face.
+Picture = collections.namedtuple("Picture", "scene images entries options known shape",
+                                 defaults=[(), (), None, None])
 
 
 def samples(first, last):
@@ -96,6 +97,36 @@ def hip_joint(_):
     return ("section", *zip(*points))
 
 
+def stiff_sphere(_):
+    """Return the pressure under a body with the face of the sphere and a million times the
+    modulus."""
+    points = sorted((p["x"], p["pressure"]) for p in solve(
+        "prm/point-contact-axisymmetric.prm", STIFF).points)
+    return ("stiff body", *zip(*points))
+
+
+def degree_2(_):
+    """Return the pressure on the symmetry plane of a solution of degree 2."""
+    found = solve("prm/incompressible.prm", ["Element degree=2", *(
+        f"Body {body}/Box cells=12, 12, 12" for body in ("upper", "lower"))])
+    points = sorted((p["x"], p["pressure"]) for p in found.points if abs(p["y"]) < 1e-9)
+    return ("degree 2", *zip(*points))
+
+
+def sunk_half_plane(_):
+    """Return the heights of a rigid punch with even pressure 1 (Johnson, 2.5), along the face of
+    half of it."""
+    places = samples(0., 1.)
+    return "half-plane", places, [-sinking(x) for x in places]
+
+
+def lundberg(_):
+    """Return the heights of Lundberg's profile of a roller of 20 mm at 3000 MPa."""
+    places = samples(-9.95, 9.95)
+    drop = 20. * (3000. / moduli((206000, .3)))**2
+    return "Lundberg", places, [drop * math.log(1. - (x / 10.)**2) for x in places]
+
+
 def even(value, last, name="even pressure"):
     return lambda _: (name, [0., last], [value, value])
 
@@ -108,14 +139,16 @@ def force_over_area(summary):
 PRESSURE, STRESS = "contact-pressure.png", "von-mises.png"
 SHAPE, CONVERGENCE = "shape.png", "convergence.png"
 MEAN = even(100., 1., "force / area")
+EXACT = even(1., 2., "exact")
 
 PICTURES = {
     "block-pair": Picture("block-pair", {"block-pair": STRESS}),
     "bush": Picture("bush", {"bush-push": "push/" + PRESSURE, "bush-pull": "pull/" + PRESSURE,
-                             "bush-shape": SHAPE}),
+                             "bush-shape": SHAPE},
+                    known=lambda _: ("lower bound of the worst peak", [-90., 90.], [50., 50.])),
     "crowned-punch": Picture("crowned-punch", {"crowned-punch": PRESSURE,
                                                "crowned-punch-shape": SHAPE},
-                             known=even(1., 1.)),
+                             known=even(1., 1.), shape=sunk_half_plane),
     "five-bodies": Picture("five-bodies", {"five-bodies": STRESS}),
     "flat-punch": Picture("flat-punch", {"flat-punch": PRESSURE}, known=flat_punch),
     "floating-block": Picture("floating-block", {"floating-block-wedge": STRESS},
@@ -133,15 +166,15 @@ PICTURES = {
                                            "hertz-3d-16-convergence": CONVERGENCE}, known=MEAN),
     "hip-joint": Picture("hip-joint", {"hip-joint": PRESSURE}, known=hip_joint),
     "incline": Picture("incline", {"incline": STRESS}),
-    "incompressible": Picture("incompressible", {"incompressible": PRESSURE}),
+    "incompressible": Picture("incompressible", {"incompressible": PRESSURE}, known=degree_2),
     "leaf-spring": Picture("leaf-spring", {"leaf-spring": STRESS}),
     "nafems-roller": Picture("nafems-roller", {"nafems-roller": STRESS,
                                                "nafems-roller-pressure": PRESSURE},
                              known=hertz_line(50., [(210000, .3), (70000, .3)], of_half)),
     "patch-test-nodal": Picture("patch-test", {"patch-test-nodal": PRESSURE},
-                                ["Contact/Method=nodal"], ["--peak", "1.08"]),
+                                ["Contact/Method=nodal"], ["--peak", "1.08"], EXACT),
     "patch-test-mortar": Picture("patch-test", {"patch-test-mortar": PRESSURE}, [],
-                                 ["--peak", "1.08"]),
+                                 ["--peak", "1.08"], EXACT),
     "peak-pressure": Picture("peak-pressure", {"peak-pressure": PRESSURE,
                                                "peak-pressure-convergence": CONVERGENCE},
                              known=MEAN),
@@ -149,10 +182,20 @@ PICTURES = {
     "point-contact": Picture("point-contact", {"point-contact": PRESSURE},
                              known=hertz_point(4., EQUAL, of_quarter)),
     "press-fit-bore": Picture("press-fit-bore", {"press-fit": PRESSURE}),
-    "rigid-sphere": Picture("rigid-sphere", {"rigid-sphere": STRESS}),
-    "shrink-fit": Picture("shrink-fit", {"shrink-fit": STRESS}),
+    "rigid-sphere": Picture("rigid-sphere", {"rigid-sphere": STRESS,
+                                             "rigid-sphere-pressure": PRESSURE},
+                            known=stiff_sphere),
+    "roller": Picture("roller", {"roller-shape": SHAPE, "roller-pressure": "heavy-2/" + PRESSURE}),
+    "roller-profile": Picture("roller-profile", {"roller-profile-shape": SHAPE,
+                                                 "roller-profile-pressure": PRESSURE},
+                              shape=lundberg),
+    "shrink-fit": Picture("shrink-fit", {"shrink-fit": STRESS, "shrink-fit-pressure": PRESSURE},
+                          known=even(lame_pressure("plane stress"), 360., "Lamé")),
     "shrunk-hub": Picture("shrunk-hub", {"shrunk-hub": PRESSURE, "shrunk-hub-shape": SHAPE},
                           known=force_over_area),
+    "step-punch": Picture("step-punch", {"step-punch": PRESSURE},
+                          known=hertz_point(10., [(1000, .3)] * 2, of_quarter)),
+    "step-roller": Picture("step-roller", {"step-roller": SHAPE}),
     "two-cylinders": Picture("two-cylinders", {"two-cylinders": STRESS,
                                                "two-cylinders-pressure": PRESSURE},
                              known=hertz_line(1 / (1 / 4 + 1 / 8), [(1000, .3), (4000, .2)],
@@ -164,14 +207,16 @@ def draw(name):
     picture = PICTURES[name]
 
     def inspect(directory, _):
+        directory = directory.rename(directory.parent / picture.scene)  # the name in the titles
         words = [str(ROOT / "contrib/plot"), *picture.options]
-        if picture.known:
-            title, places, values = picture.known(
-                json.loads((directory / "summary.json").read_text(encoding="utf-8")))
-            known = directory / "known.csv"
-            known.write_text(f"place,{title}\n" + "".join(
-                f"{place!r},{value!r}\n" for place, value in zip(places, values)))
-            words += ["--known", str(known)]
+        summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
+        for option, answer in (("--known", picture.known), ("--known-shape", picture.shape)):
+            if answer:
+                title, places, values = answer(summary)
+                known = directory / f"{option[2:]}.csv"
+                known.write_text(f"place,{title}\n" + "".join(
+                    f"{place!r},{value!r}\n" for place, value in zip(places, values)))
+                words += [option, str(known)]
         subprocess.run([*words, str(directory)], check=True, stdout=subprocess.DEVNULL)
         for image, source in picture.images.items():
             target = pathlib.Path(ROOT / "doc/images" / (image + ".png"))

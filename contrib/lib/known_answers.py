@@ -63,6 +63,13 @@ def solid_against_axisymmetric(result, section):
              a)]
 
 
+# A rigid sphere as the face of a stiff body, whose cells are warped like the others.
+STIFF = ["Body upper/Young's modulus=1e9", "Body upper/Displacement=top: y = -0.006",
+         "Body upper/Warp=0.7*x*(x^2 - 1); 0.8*y*(y - 1) + "
+         "(1 - y)*(4 - sqrt(16 - x^2*(0.3 + 0.7*x^2)^2))",
+         "Contact/Gap=0", "Contact/Pairs=lower.top: upper.bottom", "Contact/Slave=first"]
+
+
 def rigid_against_stiff(result, stiff):
     return [("load", abs(result.state["contact_force"][1]),
              abs(stiff.state["contact_force"][1])),
@@ -214,14 +221,15 @@ def five_bodies(result, _):
              math.fsum(range(pair + 1, 6))) for pair in range(5)]
 
 
-def crowned_punch(result, _):
-    """The answers are the even pressure 1 and the profile of a rigid punch that has it: how far the
-    half plane sinks less at x than in the middle (Johnson, 2.5)."""
-    points = sorted(result.points, key=lambda p: p["x"])
+def sinking(x):
+    """Return how far a half-plane of modulus 1000 sinks less at x than in the middle of an even
+    pressure 1 from -1 to 1 (Johnson, 2.5)."""
+    return .91 / (1000 * math.pi) * sum(s * math.log(s * s) for s in (1 + x, 1 - x) if s > 0)
 
-    def sinking(x):
-        return .91 / (1000 * math.pi) * sum(
-            s * math.log(s * s) for s in (1 + x, 1 - x) if s > 0)
+
+def crowned_punch(result, _):
+    """The answers are the even pressure 1 and the profile of a rigid punch that has it."""
+    points = sorted(result.points, key=lambda p: p["x"])
     return [(f"p, {which.__name__}", which(result.pressures()), 1.)
             for which in (min, max)] + [
         (f"profile at {p['x']:.5g}", p["y"] - points[0]["y"], sinking(p["x"]))

@@ -57,9 +57,12 @@ def read_pieces(path):
         raise PlotError(f"file '{path}' is damaged") from None
 
 
-def draw_heights(axis, places, drops, place, units):
+def draw_heights(axis, places, drops, place, units, known):
     for drop, head in zip(drops, TITLES):
         axis.plot(places, -drop, ".-", markersize=3, label=head)
+    if known:
+        axis.plot(known.places, known.values, "k--", linewidth=1.2, label=known.name)
+        axis.set_xlim(places.min(), places.max())
     finish(axis, place, units.label("height", units.length))
 
 
@@ -75,12 +78,13 @@ def finish(axis, place, label):
     axis.grid(True, alpha=0.3)
 
 
-def heights_panel(name, places, place, drops, units):
+def heights_panel(name, places, place, drops, units, known):
     return Panel(1.4, f"{name}, height against the highest point",
-                 lambda axis: draw_heights(axis, places, drops, place, units), legend=TITLES)
+                 lambda axis: draw_heights(axis, places, drops, place, units, known),
+                 legend=TITLES + ((known.name,) if known else ()))
 
 
-def curve_group(piece, units):
+def curve_group(piece, units, known):
     """Return the panels of a 2D piece: the heights of both shapes, unless the piece turns too far,
     and the change, which of a bore is over the angle."""
     place, change = units.place("length along the face"), units.label("change", units.length)
@@ -89,7 +93,7 @@ def curve_group(piece, units):
         places, place = piece.bore.angles(piece.points), units.place(piece.bore.name)
         order = np.argsort(places, kind="stable")
         places, move = places[order], move[order]
-    panels = [heights_panel(piece.name, places, place, piece.drops, units)] \
+    panels = [heights_panel(piece.name, places, place, piece.drops, units, known)] \
         if piece.is_flat else []
     return panels + [Panel(1.4 if panels else 2., f"{piece.name}, change along the normal",
                            lambda axis: draw_change(axis, places, move, place, change))]
@@ -140,7 +144,7 @@ def map_panels(piece, units):
             for title, values, of, colours, label in drawn]
 
 
-def middle_panel(piece, units):
+def middle_panel(piece, units, known):
     """Return the panel of the heights along the longer direction of a 3D piece, in its middle."""
     view = along_axis(piece.normal)
     places = view.project(piece.points)
@@ -151,20 +155,20 @@ def middle_panel(piece, units):
     mesh = Triangulation(places[:, 0], places[:, 1])
     drops = [LinearTriInterpolator(mesh, drop)(line[:, 0], line[:, 1]) for drop in piece.drops]
     name = f"{piece.name}, {view.names[1 - along]} = {line[0, 1 - along]:.4g}"
-    return heights_panel(name, line[:, along], units.place(view.names[along]), drops, units)
+    return heights_panel(name, line[:, along], units.place(view.names[along]), drops, units, known)
 
 
-def draw_profile(directory, model, units):
+def draw_profile(directory, model, units, known):
     """Draw shape.png; faces of 3D bodies that turn too far and are no bores are left out."""
     groups = []
     for piece in read_pieces(existing(os.path.join(directory, "profile.csv"))):
         if piece.arc_length is not None:
-            groups.append(curve_group(piece, units))
+            groups.append(curve_group(piece, units, known))
         elif piece.bore:
             groups.append([change_panel(piece, units)])
         elif piece.is_flat:
             maps = map_panels(piece, units)
-            groups += [maps[:2], [maps[2], middle_panel(piece, units)]]
+            groups += [maps[:2], [maps[2], middle_panel(piece, units, known)]]
     if groups:
         compose(f"{model}: shaped faces without load, before and after the optimization", groups,
                 directory, "shape.png")
