@@ -132,6 +132,12 @@ def compose(title, groups, directory, name):
     save(figure, directory, name)
 
 
+def finish(axis, columns=3):
+    """Add a grid, and a legend above the axis, where it hides no curve."""
+    axis.grid(alpha=.3)
+    axis.legend(ncols=columns, loc="lower center", frameon=False, bbox_to_anchor=(.5, 1.))
+
+
 def triangles_of(points, polygons, values):
     """Return points, triangles and values: polygons are split by their centres."""
     counts = np.array([len(polygon) for polygon in polygons])
