@@ -207,7 +207,7 @@ def draw(name):
     picture = PICTURES[name]
 
     def inspect(directory, _):
-        directory = directory.rename(directory.parent / picture.scene)  # the name in the titles
+        directory = directory.rename(directory.parent / name)  # the name in the titles
         words = [str(ROOT / "contrib/plot"), *picture.options]
         summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
         for option, answer in (("--known", picture.known), ("--known-shape", picture.shape)):

@@ -162,7 +162,8 @@ also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
                         no translation
     --restart           continue an interrupted optimization
     --validate          check the file, list bodies and boundaries with areas and
-                        bounding boxes, and contact pairs with gaps, without a solve
+                        bounding boxes, and contact pairs with gaps, without a solve;
+                        with --output the meshes are written to DIR/model
     --advise            solve the first state and list simplifications of the model
                         (symmetry, rigid bodies, needless cells) and defects (locking)
     --estimate          make the meshes and print the memory and the time of a run;

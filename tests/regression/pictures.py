@@ -131,6 +131,30 @@ class Pictures(unittest.TestCase):
                 self.assertGreater(picture.stat().st_size, 5000, picture)
                 picture.unlink()
 
+    def test_the_model_is_drawn(self):
+        done = self.plot("--model")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        picture = OUTPUT / "model.png"
+        self.assertGreater(picture.stat().st_size, 5000)
+        picture.unlink()
+
+    def test_the_model_of_a_parameter_file_is_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def draw(scene):
+                return subprocess.run([str(ROOT / "contrib/plot"), "--model", scene], text=True,
+                                      capture_output=True, check=False, cwd=folder,
+                                      env={**os.environ, "SNUG": PROGRAM})
+            done = draw(SCENE)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            output = pathlib.Path(folder, "output", pathlib.Path(SCENE).stem)
+            self.assertGreater((output / "model.png").stat().st_size, 5000)
+            # the meshes are those of the run
+            cells = [sum(piece.GetNumberOfCells() for piece in pieces)
+                     for pieces in series(output / "model/solution.pvd")[0.]["bodies"].values()]
+            self.assertEqual(cells, [48, 48])
+            done = draw("nowhere.prm")
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+
     def test_a_cut_beside_the_bodies_is_refused(self):
         done = self.plot("--cut", "z=9")
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
@@ -155,8 +179,9 @@ def main():
     parser.add_argument("--mpiexec", default="mpirun")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        global OUTPUT
+        global OUTPUT, PROGRAM, SCENE
         OUTPUT = pathlib.Path(folder)
+        PROGRAM, SCENE = map(os.path.abspath, (options.program, options.scene))
         entries = ["Task=optimize", "Optimization/Draw every=1", "Output/Ranks per file=1",
                    "Optimization/Maximum evaluations=4"]
         subprocess.run([options.mpiexec, "-np", "2", options.program, options.scene, "--output",

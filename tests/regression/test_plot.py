@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Pictures look at contact: face-on, where it is, and off the frame."""
+"""Pictures look at contact: face-on, where it is, off the frame, and unrolled around bores."""
 
 import os
 import pathlib
@@ -23,8 +23,11 @@ exec(compile(PLOT.read_text(encoding="utf-8"), str(PLOT), "exec"), plot.__dict__
 
 import contact_faces  # noqa: E402
 import drawing  # noqa: E402
+import obstacles  # noqa: E402
+import parameters  # noqa: E402
 import sections  # noqa: E402
 import stress_picture  # noqa: E402
+import unrolled  # noqa: E402
 import views  # noqa: E402
 from states import PlotError  # noqa: E402
 
@@ -56,6 +59,129 @@ def strip(length=20., width=.2, n=21):
     side.pressure = side.values = np.maximum(0., width / 2. + 1e-9 - np.abs(z.ravel()))
     side.flat = False
     return side
+
+
+def side_of(points, faces, pressure):
+    side = contact_faces.Side.__new__(contact_faces.Side)
+    side.points, side.faces, side.nodes = points, faces, np.unique(faces)
+    side.pressure = side.values = pressure
+    side.dotted, side.flat = np.zeros(0, dtype=int), faces.shape[1] == 2
+    return side
+
+
+def ring(first, last, n=360, radius=3., loaded=180.):
+    """A 2D side about (5, 1) between two angles [degrees], loaded up to an angle from x."""
+    angles = np.linspace(first, last, n + 1)
+    closed = last - first == 360.
+    faces = np.stack([np.arange(n), (np.arange(n) + 1) % (n if closed else n + 1)], axis=1)
+    angles = angles[:n] if closed else angles
+    around = np.radians(angles)
+    points = np.stack([5. + radius * np.cos(around), 1. + radius * np.sin(around), 0. * around], 1)
+    return side_of(points, faces, np.maximum(0., loaded - np.abs(unrolled.wrapped(angles))))
+
+
+def half_pipe(axis, n=90, radius=2., length=7.):
+    """Half of a cylinder about an axis, loaded everywhere."""
+    angles, places = np.meshgrid(np.radians(np.linspace(20., 200., n + 1)),
+                                 np.linspace(1., 1. + length, 4), indexing="ij")
+    points = np.zeros((*angles.shape, 3))
+    points[..., (axis + 1) % 3] = radius * np.cos(angles)
+    points[..., (axis + 2) % 3] = radius * np.sin(angles)
+    points[..., axis] = places
+    first = np.add.outer(4 * np.arange(n), np.arange(3)).ravel()
+    faces = np.stack([first, first + 4, first + 5, first + 1], axis=1)
+    return side_of(points.reshape(-1, 3), faces, np.ones(angles.size))
+
+
+class Bores(unittest.TestCase):
+    def test_arc_lengths_are_radius_times_angle(self):
+        side = ring(-90., 90.)
+        bore = unrolled.bore_of([side])
+        places, name = side.curve(bore)
+        self.assertEqual(name, "angle from x")
+        self.assertAlmostEqual(bore.radius, 3.)
+        self.assertTrue(np.all(np.diff(places[:, 0]) > 0.) and np.allclose(
+            [places.min(), places.max()], [-90., 90.]))
+        # chords of half a degree are shorter than their arcs by 3e-6
+        arcs = bore.arc() * (places - places.min())
+        self.assertTrue(np.allclose(arcs, side.arc_lengths(), rtol=1e-5, atol=1e-5))
+
+    def test_no_face_is_torn_where_the_angle_begins(self):
+        for loaded, ends in ((180., (-180., 180.)), (60., (-180., 180.)), (0., (0., 360.))):
+            side = ring(0., 360., 120, loaded=loaded)
+            places, _ = side.curve(unrolled.bore_of([side]))
+            self.assertTrue(np.allclose(np.diff(places, axis=1), 3.))
+            self.assertTrue(np.allclose([places.min(), places.max()], ends), places)
+
+    def test_faces_keep_their_areas(self):
+        for axis in range(3):
+            side = half_pipe(axis)
+            bore = unrolled.bore_of([side])
+            self.assertEqual((bore.axis, stress_picture.cut_axis(side)), (axis, axis))
+            flat = side.unrolled(bore)
+            self.assertTrue(np.allclose(np.ptp(flat.points, axis=0), [180., 7., 0.]))
+            # chords of two degrees are shorter than their arcs by 5e-5
+            self.assertAlmostEqual(
+                bore.arc() * np.linalg.norm(flat.normals(), axis=1).sum(),
+                np.linalg.norm(side.normals(), axis=1).sum(), delta=1e-3 * 7. * 2. * np.pi)
+
+    def test_other_faces_are_no_bores(self):
+        for side in (eighth_of_a_sphere(), strip(), ring(0., 90., loaded=20.)):
+            self.assertIsNone(unrolled.bore_of([side]))
+        oval = ring(0., 360.)
+        oval.points[:, 0] *= 1.2
+        self.assertIsNone(unrolled.bore_of([oval]))
+        self.assertIsNotNone(unrolled.bore_of([ring(0., 90., loaded=60.)]))
+
+
+class Obstacles(unittest.TestCase):
+    BEGIN = "set Dimension = {}\nset Obstacles = tool\nset Load cases = a, b\n"
+    ENTRIES = {"Point": "1, 2, 3", "Normal": "0, 0, 1", "Axis": "0, 0, 1", "Radius": "2",
+               "Formula": "", "Displacement": "0, 0, 0"}
+
+    def tool(self, case="a", dim=3, **entries):
+        """Return the obstacle of a parameters.prm with these entries."""
+        text = self.BEGIN.format(dim) + "subsection Obstacle tool\n" + "".join(
+            f"  set {name} = {value}\n" for name, value in {**self.ENTRIES, **entries}.items()) + (
+                "end\nsubsection Load case b\n  set Position = tool: rotate z 90 about 1 0 0, "
+                "shift 0 0 5\nend\n")
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "parameters.prm").write_text(text, encoding="utf-8")
+            return obstacles.Obstacle(parameters.Parameters(folder), "tool", case)
+
+    def test_levels_are_distances(self):
+        point = np.array([[4., 6., 4.]])  # 3, 4, 1 from the point of the obstacle
+        for shape, distance in (("plane", 1.), ("sphere", 26.**.5 - 2.), ("cylinder", 3.),
+                                ("hollow sphere", 2. - 26.**.5), ("hollow cylinder", -3.)):
+            self.assertAlmostEqual(self.tool(Shape=shape).level(point)[0], distance, msg=shape)
+        self.assertAlmostEqual(self.tool(Shape="cylinder", Axis="2, 0, 0").level(point)[0],
+                               17.**.5 - 2.)
+        self.assertAlmostEqual(self.tool(Shape="plane", Displacement="0, 0, 3").level(point)[0], -2.)
+
+    def test_formulas_are_the_same_shapes(self):
+        points = np.random.default_rng(1).normal(size=(50, 3)) * 4.
+        for axis in ("0, 0, 1", "0, 0, -1", "1, 2, -2"):
+            expected = self.tool(Shape="cylinder", Axis=axis).level(points)
+            formula = self.tool(Shape="formula", Axis=axis, Formula="sqrt(x^2 + y^2) - 2")
+            self.assertTrue(np.allclose(formula.level(points), expected), axis)
+        self.assertTrue(np.allclose(obstacles.evaluated("if(x > 1, 2*x, -1e-1) + pi", points),
+                                    np.where(points[:, 0] > 1., 2. * points[:, 0], -.1) + np.pi))
+        for formula in ("x.real", "open(x)", "x + w", "x ? 1 : 2", "x +"):
+            with self.assertRaises(ValueError, msg=formula):
+                obstacles.evaluated(formula, points)
+
+    def test_obstacles_move_with_their_load_case(self):
+        # (1 + a, b) turns to (1 - b, a)
+        points = np.array([[4., 6., 4.], [0., -2., 1.]])
+        moved = np.array([[1. - 6., 3., 9.], [1. + 2., -1., 6.]])
+        for shape in ("plane", "sphere", "cylinder"):
+            self.assertTrue(np.allclose(self.tool("b", Shape=shape).level(moved),
+                                        self.tool("a", Shape=shape).level(points)), shape)
+
+    def test_windows_have_room_where_the_obstacle_is(self):
+        floor = self.tool(dim=2, Shape="plane", Point="0, 0", Normal="0, 1", Displacement="0, 0")
+        low, high = obstacles.widened([floor], [0., 0.], [2., 1.], [0, 1], 0.)
+        self.assertTrue(low[1] < -.1 and high[1] == 1.)
 
 
 class Plot(unittest.TestCase):
@@ -185,6 +311,7 @@ class Views(unittest.TestCase):
                           ["--cut", "y=inf", here], ["--cut", "", here], ["--peak", "0", here],
                           ["--peak", "-1", here], ["--peak", "big", here],
                           ["--known", "/nowhere", here], ["--known", str(PLOT), here], ["--cut"],
+                          ["--known-shape", "/nowhere", here],
                           ["--vieww", "x", here], [here, here], [], [here + "/nowhere"]):
             with self.assertRaises(PlotError, msg=arguments) as caught:
                 plot.read_options(arguments)
