@@ -75,6 +75,11 @@ def components(formulas, places):
     return result
 
 
+def labels(model):
+    return [f"{boundary}: {shortened(f'{kind.lower()} {text}')}" for body in model.state.bodies
+            for kind, boundary, text in of_body(model, body)]
+
+
 def draw_loads(axis, model):
     """Draw all loads with their kinds and values; return the corners of the frame that they need,
     and their lines in the list."""
@@ -105,7 +110,12 @@ def shortened(text, most=36):
 
 
 def write(axis, model, place, label, colour):
-    """Write the label of a load next to its arrow, towards the middle of the picture."""
+    """Write the label of a load next to its arrow, towards the middle of the picture, above
+    others."""
+    apart = model.length * np.array([3., .25])
+    while any(np.all(np.abs(place - other) < apart) for other in model.written):
+        place = place + [0., .26 * model.length]
+    model.written.append(place)
     side = "left" if place[0] < (model.low[0] + model.high[0]) / 2. else "right"
     axis.text(*place, label, color=colour, fontsize=7.5, ha=side, va="bottom", zorder=75.,
               bbox={"boxstyle": "round,pad=.1", "fc": "white", "ec": "none", "alpha": .75})

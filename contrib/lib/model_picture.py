@@ -56,10 +56,19 @@ class Model:
         low, high = bounds_of(state)
         corners = self.view.project(np.array([[(low, high)[(k >> d) & 1][d] for d in range(3)]
                                               for k in range(8)]))
+        self.obstacles, self.written = obstacles_of(parameters, case), []
+        # the plane in which obstacles are cut, at the front or in the middle, and the window there
+        self.plane = [0, 1] if self.flat else [0, 2]
+        places = [0.] if self.flat else [low[1], (low[1] + high[1]) / 2.]
+        windows = [widened(self.obstacles, low[self.plane], high[self.plane], self.plane, place)
+                   for place in places]
+        at = int(np.argmax([np.prod(end - start) for start, end in windows]))
+        self.place, self.section = places[at], windows[at]
+        if self.obstacles:
+            ends = np.full((2, 3), self.place)
+            ends[:, self.plane] = self.section
+            corners = np.concatenate([corners, self.view.project(ends)])
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
-        self.obstacles = obstacles_of(parameters, case)
-        if self.flat:
-            self.low, self.high = widened(self.obstacles, self.low, self.high, [0, 1], 0.)
         self.names = {name: self.middle(body) for name, body in state.bodies.items()}
         self.length = .12 * np.linalg.norm(self.high - self.low)  # of arrows
 
@@ -202,13 +211,13 @@ def draw_model(axis, model, window, units):
         for boundary in boundaries:
             draw_boundary(axis, model, boundary, colour, 40.)
         found.append(Patch(color=colour, alpha=1. if model.flat else .5, label=f"contact {name}"))
-    low, high = window or (model.low, model.high)
-    if model.flat:
-        draw_obstacles(axis, model.obstacles, model.view, low, high, [0, 1], 0.)
-    found += [Patch(facecolor=GREY, edgecolor=EDGE, label=f"obstacle {obstacle.name}")
+    draw_obstacles(axis, model.obstacles, model.view, *(window or model.section), model.plane,
+                   model.place)
+    where = "" if model.flat else f", cut at y = {model.place:.4g}"
+    found += [Patch(facecolor=GREY, edgecolor=EDGE, label=f"obstacle {obstacle.name}{where}")
               for obstacle in model.obstacles]
     if window:
-        frame(axis, model.view, low, high, units)
+        frame(axis, model.view, *window, units)
         return found
     found += draw_supports(axis, model, 6)
     corners, lines = model_loads.draw_loads(axis, model)
@@ -258,7 +267,8 @@ def group_of(model, title, units):
     if window:
         panels.append(Panel(1., "at the contact", lambda axis: draw_model(
             axis, model, window, units) and None))
-    longest = max([len(name) for name, _ in model.pairs()] + [24])
+    longest = max([len(name) for name, _ in model.pairs()] + [24] +
+                  [len(label) for label in model_loads.labels(model)])
     return panels + [Panel(.5, " " * longest, lambda axis: draw_list(axis, found))]
 
 
