@@ -59,11 +59,12 @@ class Model:
         self.obstacles, self.written = obstacles_of(parameters, case), []
         # the plane in which obstacles are cut, at the front or in the middle, and the window there
         self.plane = [0, 1] if self.flat else [0, 2]
-        places = [0.] if self.flat else [low[1], (low[1] + high[1]) / 2.]
+        places = [0.] if self.flat else np.round([low[1], (low[1] + high[1]) / 2.], 9) + 0.
         windows = [widened(self.obstacles, low[self.plane], high[self.plane], self.plane, place)
                    for place in places]
         at = int(np.argmax([np.prod(end - start) for start, end in windows]))
         self.place, self.section = places[at], windows[at]
+        self.layer = .5 if self.flat or at else 45.  # zorder of obstacles
         if self.obstacles:
             ends = np.full((2, 3), self.place)
             ends[:, self.plane] = self.section
@@ -212,7 +213,7 @@ def draw_model(axis, model, window, units):
             draw_boundary(axis, model, boundary, colour, 40.)
         found.append(Patch(color=colour, alpha=1. if model.flat else .5, label=f"contact {name}"))
     draw_obstacles(axis, model.obstacles, model.view, *(window or model.section), model.plane,
-                   model.place)
+                   model.place, model.layer)
     where = "" if model.flat else f", cut at y = {model.place:.4g}"
     found += [Patch(facecolor=GREY, edgecolor=EDGE, label=f"obstacle {obstacle.name}{where}")
               for obstacle in model.obstacles]
