@@ -32,9 +32,13 @@ class Piece:
         self.arc_length = column("arc_length") if "arc_length" in rows[0] else None
         normals = np.transpose([column("normal_" + axis) for axis in axes])
         mean = normals.mean(axis=0)
-        self.is_flat = np.min(normals @ mean) > LEAST_COSINE * np.linalg.norm(mean)
+        self.is_flat = np.min(normals @ mean) > LEAST_COSINE * np.linalg.norm(mean) and \
+            bool(np.all(np.isfinite(self.drops)))
         self.normal = int(np.argmax(np.abs(mean)))
         self.bore = None if self.is_flat else self.fitted_bore(normals)
+
+    def has_moved(self):
+        return np.abs(self.move).max() > 1e-12 * np.ptp(self.points, axis=0).max()
 
     def fitted_bore(self, normals):
         """Return the Bore that the piece is, with its points in three dimensions, or None."""
@@ -101,7 +105,7 @@ def curve_group(piece, units, known):
 
 def draw_map(axis, view, places, values, ends, colours, units, stretched):
     first, last = ends
-    image = axis.tripcolor(places[:, 0], places[:, 1], values, shading="gouraud", cmap=colours,
+    image = axis.tripcolor(Triangulation(*places.T), values, shading="gouraud", cmap=colours,
                            vmin=first, vmax=last if last > first else first + 1.)
     frame(axis, view, places.min(axis=0), places.max(axis=0), units, stretched)
     return image
@@ -159,9 +163,11 @@ def middle_panel(piece, units, known):
 
 
 def draw_profile(directory, model, units, known):
-    """Draw shape.png; faces of 3D bodies that turn too far and are no bores are left out."""
+    """Draw shape.png; faces that do not move, and those of 3D bodies that turn too far and are no
+    bores, are left out."""
     groups = []
-    for piece in read_pieces(existing(os.path.join(directory, "profile.csv"))):
+    pieces = read_pieces(existing(os.path.join(directory, "profile.csv")))
+    for piece in [piece for piece in pieces if piece.has_moved()] or pieces:
         if piece.arc_length is not None:
             groups.append(curve_group(piece, units, known))
         elif piece.bore:
