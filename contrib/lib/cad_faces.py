@@ -129,7 +129,7 @@ def draw_body(path, directory):
             axis.view_init(*view)
             draw_solid(axis, boundaries, direction_of(*view),
                        {name for name, of_name in named.items() if of_name == view})
-    figure.suptitle(f"Boundaries of body {body}" +
+    figure.suptitle(f"{pathlib.Path(directory).resolve().name}: boundaries of body {body}" +
                     (", from above, and from below and behind" if dim == 2 else ""))
     drawing.save(figure, directory, f"faces-{body}.png")
 
