@@ -149,12 +149,15 @@ def map_panels(piece, units):
 
 
 def middle_panel(piece, units, known):
-    """Return the panel of the heights along the longer direction of a 3D piece, in its middle."""
+    """Return the panel of the heights along the longer direction of a 3D piece, in its middle, or
+    through the highest point if it is not flat before."""
     view = along_axis(piece.normal)
     places = view.project(piece.points)
     low, high = places.min(axis=0), places.max(axis=0)
     along = int(np.argmax(high - low))
-    line = np.tile((low + high) / 2., (101, 1))
+    bent = np.ptp(piece.drops[0]) > 1e-6 * np.ptp(places, axis=0).max()
+    through = places[np.argmin(piece.drops[0])] if bent else (low + high) / 2.
+    line = np.tile(through, (101, 1))
     line[:, along] = np.linspace(low[along], high[along], 101)
     mesh = Triangulation(places[:, 0], places[:, 1])
     drops = [LinearTriInterpolator(mesh, drop)(line[:, 0], line[:, 1]) for drop in piece.drops]
