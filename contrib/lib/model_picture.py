@@ -130,10 +130,11 @@ def draw_triad(axis, model):
     origin = model.low.copy()
     for name, unit in zip("xyz", np.eye(3)):
         tip = origin + .7 * model.length * model.view.project(unit)
-        axis.annotate("", tip, origin, annotation_clip=False,
+        axis.annotate("", tip, origin, annotation_clip=False, zorder=90.,
                       arrowprops={"arrowstyle": "->", "color": "0.3", "shrinkA": 0.,
                                   "shrinkB": 0.})
-        axis.text(*(1.3 * tip - .3 * origin), name, fontsize=8., ha="center", va="center")
+        axis.text(*(1.3 * tip - .3 * origin), name, fontsize=8., ha="center", va="center",
+                  zorder=90.)
 
 
 def draw_bodies(axis, model):
@@ -268,9 +269,10 @@ def group_of(model, title, units):
     if window:
         panels.append(Panel(1., "at the contact", lambda axis: draw_model(
             axis, model, window, units) and None))
-    longest = max([len(name) for name, _ in model.pairs()] + [24] +
-                  [len(label) for label in model_loads.labels(model)])
-    return panels + [Panel(.5, " " * longest, lambda axis: draw_list(axis, found))]
+    longest = max(map(len, [f"contact {name}" for name, _ in model.pairs()] + [32 * " "] +
+                      model_loads.labels(model)))
+    # the blank title makes room for the list, whose letters are smaller
+    return panels + [Panel(.5, " " * (3 * longest // 4 + 12), lambda axis: draw_list(axis, found))]
 
 
 def draw_models(path, view):
