@@ -16,7 +16,7 @@ const double least_part = 1e-3;
 
 /// Energy of stresses that are round-off, as a part of the energy that the displacement gradients
 /// would have as strains. A body that expands freely has no other stresses.
-const double round_off = 1e-14;
+const double least_strained = 1e-14;
 
 /// Rigid motions of a body up to this part of the largest one are held by rounding errors alone.
 const double held_cut = 1e-10;
@@ -184,7 +184,7 @@ std::vector<GeometricEffect> geometric_effects(const StateSolver<dim>  &solver,
       const double               of_second_order =
         of.GGS - 2. * scalar_product(W, of.GS) + scalar_product(W, dealii::Tensor<2, 3>(W * of.S));
       const double of_first_order =
-        std::max({std::abs(of.energy), least_part * energy, round_off * of.EGG});
+        std::max({std::abs(of.energy), least_part * energy, least_strained * of.EGG});
       result.push_back({solver.model().body_names[body],
                         of_first_order > 0. ? of_second_order / of_first_order : 0., w.norm()});
     }
