@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
+#include <map>
 #include <numeric>
 #include <random>
+#include <sstream>
 
 namespace snug::app {
 namespace {
@@ -21,9 +23,7 @@ const double round_off = 1e-12;
 /// Maximum number of control points of a curve.
 const unsigned int most_of_curve = 500;
 
-/// The table of the drop has one row more than these intervals, which are divided into n_between
-/// steps for the highest point.
-const unsigned int n_rows = 8, n_between = 25;
+const unsigned int n_rows = 9; ///< of the table of the drop
 
 /// Coordinates are equal up to this part of their range.
 const double equal = 1e-9;
@@ -143,41 +143,6 @@ cad::SplineFace spline_face(const io::SplineSurface<dim>     &surface,
   return result;
 }
 
-Sweep::Sweep(const bool rotates, const shape::Axis &axis, const double lower, const double extent)
-  : rotates(rotates), axis(axis), lower(lower), extent(extent)
-{
-  across[0] = shape::reference_direction(axis.direction);
-  across[1] = cross_product_3d(axis.direction, across[0]);
-  if (rotates)
-    across[0] = std::cos(lower) * across[0] + std::sin(lower) * across[1];
-}
-
-dealii::Tensor<1, 2> Sweep::section(const Vector &x) const
-{
-  const Vector         lever = x - axis.point;
-  const double         along = lever * axis.direction;
-  dealii::Tensor<1, 2> result;
-  result[0] = rotates ? (lever - along * axis.direction).norm() : lever * across[0];
-  result[1] = rotates ? along : lever * across[1];
-  return result;
-}
-
-cad::SplineFace Sweep::face(const io::SplineSurface<2> &curve,
-                            const dealii::Tensor<1, 1> &range) const
-{
-  auto result = spline_face<2>(curve, range);
-  result.points.clear();
-  for (const auto &q : curve.points)
-    result.points.emplace_back(
-      axis.point + q[0] * across[0] +
-      (rotates ? q[1] * axis.direction : q[1] * across[1] + lower * axis.direction));
-  result.sweep     = rotates ? cad::SplineFace::Sweep::revolved : cad::SplineFace::Sweep::extruded;
-  result.centre    = dealii::Point<3>(axis.point);
-  result.direction = dealii::Point<3>(axis.direction);
-  result.extent    = extent;
-  return result;
-}
-
 template <int dim>
 DesignedFace<dim>::DesignedFace(const mesh::BodyMesh<dim>    &mesh,
                                 const shape::BodyNames       &names,
@@ -193,9 +158,14 @@ DesignedFace<dim>::DesignedFace(const mesh::BodyMesh<dim>    &mesh,
       largest_move = std::max(largest_move, std::abs(moves.back()));
     }
   const auto all = all_coordinates<dim>(*face, parameters);
-  for (const auto &coordinates : all)
-    if (!swept)
-      add_sweep(coordinates);
+  // A design may be constant around an axis, along an extrusion, or else across a plane.
+  for (const bool is_flat : {false, true})
+    for (const auto &one : all)
+      for (unsigned int a = 0; a < dim - 1; ++a)
+        if (!section && (one.kind() == Coordinates::projection) == is_flat &&
+            (is_flat || dim == 2 || (one.kind() == Coordinates::angle) == (a == 1)) &&
+            depends_on(one.axis(a)))
+          section.emplace(one, a);
   if (all.empty())
     return;
   const auto best = std::find_if(all.begin(), all.end(),
@@ -212,51 +182,6 @@ DesignedFace<dim>::DesignedFace(const mesh::BodyMesh<dim>    &mesh,
       values.resize(face->surface().n_nodes());
       ranks.push_back(ranks_of(values, coordinates->axis(a).range));
     }
-}
-
-/// Set the sweep that makes the face if the coordinates have one.
-template <int dim>
-void DesignedFace<dim>::add_sweep(const shape::FaceCoordinates<dim> &of)
-{
-  const auto set = [&](const bool rotates, const shape::Axis &axis, const unsigned int curve,
-                       const std::string &along) {
-    const auto &across = of.axis(1 - curve);
-    if (!depends_on(of.axis(curve)))
-      return;
-    swept.emplace(Swept{{rotates, axis, across.lower, across.range}, of.all_axes(), curve, along});
-    // The curve of an extrusion is the first parameter.
-    if (!rotates && curve == 1)
-      {
-        std::swap(swept->axes[0], swept->axes[1]);
-        swept->curve = 0;
-      }
-  };
-  const auto line = [](const unsigned int d) {
-    shape::Axis result;
-    result.direction[d] = 1.;
-    return result;
-  };
-  if (dim == 2)
-    {
-      const auto &section = face->mesh().idealization();
-      const bool  rotates = section.is_axisymmetric();
-      swept.emplace(
-        Swept{{rotates, line(rotates ? 1 : 2), 0., rotates ? 2. * M_PI : section.thickness},
-              of.all_axes(),
-              0,
-              "the face"});
-    }
-  else if (of.kind() == Coordinates::angle)
-    set(true, of.line(), 1, "the axis");
-  else if (of.kind() == Coordinates::arc_length)
-    set(false, of.line(), 0, "the face");
-  else
-    for (const unsigned int curve : {0, 1})
-      {
-        const auto along = line(of.projection_axes()[1 - curve]);
-        if (!swept && shape::is_extrusion(shape::face_points(*face), along.direction))
-          set(false, along, curve, std::string(1, "xyz"[of.projection_axes()[curve]]));
-      }
 }
 
 /// Return whether a point is a hanging node, which need not lie on the true surface.
@@ -320,46 +245,6 @@ std::array<unsigned int, 2> DesignedFace<dim>::place(const unsigned int global_n
                        : std::array<unsigned int, 2>{{ranks.front()[node], ranks.back()[node]}};
 }
 
-/// Return the place at the coordinate @p s of the curve [length] and at one of the fractions @p
-/// across of the range of the other coordinate, or nothing outside of the face.
-template <int dim>
-std::optional<typename shape::FaceChart<dim>::Place>
-DesignedFace<dim>::on_curve(const shape::FaceChart<dim> &chart,
-                            const double                 s,
-                            const std::vector<double>   &across) const
-{
-  for (const double part : across)
-    {
-      auto at          = part * chart.range();
-      at[swept->curve] = s;
-      if (const auto place = chart.find(at))
-        return place;
-    }
-  return {};
-}
-
-/// Return the curve of the sweep through points of the design at random places across the curve.
-template <int dim>
-io::SplineSurface<2> DesignedFace<dim>::fitted_curve(const shape::FaceChart<dim> &chart,
-                                                     const double                 tolerance) const
-{
-  std::mt19937                           random(1);
-  std::uniform_real_distribution<double> uniform(0., 1.);
-  io::CoordinatePoints<2>                points;
-  points.range[0]  = chart.range()[swept->curve];
-  points.closed[0] = chart.is_closed(swept->curve);
-  points.point     = [&](const dealii::Tensor<1, 1> &s) -> std::optional<dealii::Tensor<1, 2>> {
-    std::vector<double> across(10);
-    for (double &part : across)
-      part = uniform(random);
-    const auto place = on_curve(chart, s[0], across);
-    if (!place)
-      return {};
-    return swept->sweep.section(in_space<dim>(place->value(at_points)));
-  };
-  return io::fit_splines(points, tolerance, most_of_curve);
-}
-
 template <int dim>
 std::string DesignedFace<dim>::crown(const std::string                            &unit,
                                      const std::vector<state::SymmetryPlane<dim>> &planes) const
@@ -367,108 +252,158 @@ std::string DesignedFace<dim>::crown(const std::string                          
   const auto &surface = face->surface();
   const auto  m =
     io::mean_normal(surface, io::surface_pieces(surface).front(), face->mesh().degree(), planes);
-  const bool rotates = swept && swept->sweep.rotates && dim == 3;
-  if (!swept || !(largest_move > round_off * size()) || (!rotates && m.norm() == 0.))
+  if (!section || !(largest_move > round_off * size()))
     return "";
-  // Around an axis, the depth is the component of the section to which the mean normal is closest.
-  const auto          &axis = swept->sweep.axis;
-  dealii::Tensor<1, 2> normal;
-  const auto section = [&](const Vector &x) { return swept->sweep.section(in_space<dim>(x)); };
-  for (unsigned int k = 0; k < surface.n_nodes(); ++k)
-    normal += face->areas()[k] * (section(face->positions()[k] + 1e-3 * face->free_normals()[k]) -
-                                  section(face->positions()[k]));
-  const unsigned int deep   = std::abs(normal[0]) >= std::abs(normal[1]) ? 0 : 1;
-  const auto         height = [&](const Vector &x) {
-    return rotates ? std::copysign(1., normal[deep]) * section(x)[deep] : m * x;
+  const auto &[own, along] = *section;
+  const auto axis          = own.line();
+  // The depth of a cap is that along its axis.
+  const bool around = dim == 3 && own.kind() == Coordinates::angle;
+  const bool radial = around && std::abs(in_space<dim>(m) * axis.direction) < 0.99;
+  if (!radial && m.norm() == 0.)
+    return "";
+  const auto   lever = [&](const Vector &x) { return in_space<dim>(x) - axis.point; };
+  const double sign =
+    lever(face->positions()[0]) * in_space<dim>(face->free_normals()[0]) < 0. ? -1. : 1.;
+  const auto height = [&](const Vector &x) {
+    return radial ? sign * cross_product_3d(axis.direction, lever(x)).norm() : m * x;
   };
-  const shape::FaceChart<dim>        chart(*face, swept->axes);
-  std::vector<std::array<double, 3>> rows; // position, heights before and after
-  std::array<double, 2>              top = {{-HUGE_VAL, -HUGE_VAL}};
-  for (unsigned int k = 0; k <= n_rows * n_between; ++k)
-    {
-      const double range = chart.range()[swept->curve], s = range * k / (n_rows * n_between);
-      const std::vector<double> across = {0.5, 0.25, 0.75, 0.125, 0.875};
-      auto                      place  = on_curve(chart, s, across);
-      if (!place) // at a pole
-        place = on_curve(chart, std::clamp(s, 1e-4 * range, (1. - 1e-4) * range), across);
-      if (!place)
-        continue;
-      const auto                  before = place->value(face->positions());
-      const double                at     = !rotates    ? swept->axes[swept->curve].lower + s
-                                           : deep == 0 ? in_space<dim>(before) * axis.direction
-                                                       : section(before)[0];
-      const std::array<double, 3> row    = {{at, height(before), height(place->value(at_points))}};
-      top                                = {{std::max(top[0], row[1]), std::max(top[1], row[2])}};
-      if (k % n_between == 0)
-        rows.push_back(row);
-    }
-  const auto &d = axis.direction;
-  std::string text =
-    "face " + name + ", drop at " +
-    (deep == 0 || !rotates ? "positions along " : "distances from ") + swept->along +
-    (rotates ? " (" + to_text(std::vector<double>{d[0], d[1], d[2]}) + ")" : "") +
-    (unit.empty() ? "" : ", in " + unit) + ":\n      position   drop before    drop after\n";
-  unsigned int n = 0;
-  for (const auto &[at, before, after] : rows)
-    for (const double number : {at, top[0] - before, top[1] - after})
+  const auto position = [&](const unsigned int k) {
+    const Vector &x = face->positions()[k];
+    return !around  ? own.axis(along).lower + own.axis(along).values[k]
+           : radial ? in_space<dim>(x) * axis.direction
+                    : cross_product_3d(axis.direction, lever(x)).norm();
+  };
+  double                         before = -HUGE_VAL, after = -HUGE_VAL;
+  std::map<double, unsigned int> sorted;
+  for (unsigned int k = 0; k < at_points.size(); ++k)
+    if (!is_interpolated(k))
       {
-        char column[32];
-        std::snprintf(column, sizeof(column), "%14.5g",
-                      std::abs(number) <= constant * largest_move ? 0. : number);
-        text += column + std::string(++n % 3 == 0 ? "\n" : "");
+        sorted.emplace(position(k), k);
+        before = std::max(before, height(face->positions()[k]));
+        after  = std::max(after, height(at_points[k]));
       }
-  return text;
+  std::ostringstream text;
+  text << "face " << name << ", drop " << (radial || !around ? "along " : "by distances from ");
+  if (around)
+    text << "the axis (" << axis.direction << ')';
+  else if (own.kind() == Coordinates::projection)
+    text << "xyz"[own.projection_axes()[along]];
+  else
+    text << "the face";
+  text << (unit.empty() ? "" : ", in " + unit) << ":\n      position   drop before    drop after\n"
+       << std::setprecision(5);
+  const auto shown = [&](const double x) {
+    return std::abs(x) <= constant * largest_move ? 0. : x;
+  };
+  const double first = sorted.begin()->first, range = sorted.rbegin()->first - first;
+  for (unsigned int row = 0; row < n_rows; ++row)
+    {
+      const auto next = sorted.lower_bound(first + (row / (n_rows - 1.) - equal) * range);
+      const auto k    = next->second;
+      text << std::setw(14) << shown(next->first) << std::setw(14)
+           << shown(before - height(face->positions()[k])) << std::setw(14)
+           << shown(after - height(at_points[k])) << '\n';
+    }
+  return text.str();
+}
+
+/// Fit a curve to the meridians of the face, at random angles, and measure its distance from all
+/// points of the face.
+template <>
+void DesignedFace<3>::fit_revolved(cad::SplineFace          &of_file,
+                                   io::Summary::ProfileFace &summary) const
+{
+  const shape::FaceChart<3> chart(*face, section->first);
+  const auto                axis     = section->first.line();
+  const auto                meridian = [&](const Vector &x) {
+    const Vector         lever = x - axis.point;
+    dealii::Tensor<1, 2> result;
+    result[0] = cross_product_3d(axis.direction, lever).norm();
+    result[1] = axis.direction * lever;
+    return result;
+  };
+  std::mt19937                           random(1);
+  std::uniform_real_distribution<double> uniform(0., 1.);
+  io::CoordinatePoints<2>                points;
+  points.range[0]  = chart.range()[1];
+  points.closed[0] = chart.is_closed(1);
+  points.point     = [&](const dealii::Tensor<1, 1> &s) -> std::optional<dealii::Tensor<1, 2>> {
+    for (unsigned int trial = 0; trial < 10; ++trial)
+      {
+        shape::FaceChart<3>::Flat at;
+        at[0] = uniform(random) * chart.range()[0];
+        at[1] = s[0];
+        if (const auto place = chart.find(at))
+          return meridian(place->value(at_points));
+      }
+    return {};
+  };
+  const auto curve  = io::fit_splines(points, summary.asked / 2., most_of_curve);
+  summary.spans     = {curve.n_spans(0)};
+  summary.deviation = curve.deviation;
+  for (unsigned int k = 0; k < at_points.size(); ++k)
+    if (!is_interpolated(k))
+      {
+        dealii::Tensor<1, 1> s;
+        s[0]              = section->first.fractions(k)[1];
+        summary.deviation = std::max(summary.deviation, curve.distance(meridian(at_points[k]), s));
+      }
+  of_file           = spline_face<2>(curve, points.range);
+  const auto &angle = section->first.axis(0);
+  const auto  e     = shape::reference_direction(axis.direction);
+  for (auto &q : of_file.points)
+    q = dealii::Point<3>(axis.point + q[1] * axis.direction +
+                         q[0] * (std::cos(angle.lower) * e +
+                                 std::sin(angle.lower) * cross_product_3d(axis.direction, e)));
+  of_file.sweep     = cad::SplineFace::Sweep::revolved;
+  of_file.centre    = dealii::Point<3>(axis.point);
+  of_file.direction = dealii::Point<3>(axis.direction);
+  of_file.extent    = angle.range;
 }
 
 template <int dim>
 std::pair<cad::SplineFace, io::Summary::ProfileFace>
 DesignedFace<dim>::splines(const double asked) const
 {
-  std::pair<cad::SplineFace, io::Summary::ProfileFace> result;
   if (!coordinates)
     throw InputError(
       "the face is not connected, or is not an extrusion, a surface of revolution or a "
       "graph over a coordinate plane");
-  auto &[of_file, summary] = result;
-  summary                  = {name, {}, "curve", HUGE_VAL, asked};
-  auto axes                = swept ? swept->axes : coordinates->all_axes();
-  if (swept)
-    {
-      const shape::FaceChart<dim> chart(*face, axes);
-      const auto                  curve = fitted_curve(chart, dim == 2 ? asked : asked / 2.);
-      dealii::Tensor<1, 1>        range, s;
-      range[0]          = chart.range()[swept->curve];
-      of_file           = swept->sweep.face(curve, range);
-      summary.spans     = {curve.n_spans(0)};
-      summary.deviation = curve.deviation;
-      // The file has to agree with all points, since the curve is that of some of them.
-      for (unsigned int k = 0; k < at_points.size() && dim == 3; ++k)
-        {
-          if (is_interpolated(k))
-            continue;
-          s[0] = std::min(1., axes[swept->curve].values[k] * axes[swept->curve].unit / range[0]);
-          summary.deviation =
-            std::max(summary.deviation,
-                     curve.distance(swept->sweep.section(in_space<dim>(at_points[k])), s));
-        }
-    }
+  cad::SplineFace          of_file;
+  io::Summary::ProfileFace summary{name, {}, "revolved curve", HUGE_VAL, asked};
   if constexpr (dim == 3)
-    if (summary.deviation > asked)
-      {
-        axes = coordinates->all_axes();
-        const shape::FaceChart<3> chart(*face, axes);
-        const auto surface = io::fit_splines(io::points_of(chart, at_points), asked, most_points);
-        of_file            = spline_face<3>(surface, chart.range());
-        summary            = {
-          name, {surface.n_spans(0), surface.n_spans(1)}, "surface", surface.deviation, asked};
-      }
-  const shape::FaceChart<dim> chart(*face, axes);
+    if (section && section->first.kind() == Coordinates::angle)
+      fit_revolved(of_file, summary);
+  const bool                  is_revolved = summary.deviation <= asked;
+  const shape::FaceChart<dim> chart(*face, is_revolved ? section->first : *coordinates);
+  if (!is_revolved)
+    {
+      summary.spans.clear();
+      const auto surface = io::fit_splines(io::points_of(chart, at_points), asked, most_points);
+      of_file            = spline_face<dim>(surface, chart.range());
+      summary.kind       = dim == 2 ? "curve" : "surface";
+      summary.deviation  = surface.deviation;
+      for (unsigned int a = 0; a < dim - 1; ++a)
+        summary.spans.push_back(surface.n_spans(a));
+    }
+  if (dim == 2)
+    {
+      const auto &idealization = face->mesh().idealization();
+      const bool  revolved     = idealization.is_axisymmetric();
+      of_file.sweep =
+        revolved ? cad::SplineFace::Sweep::revolved : cad::SplineFace::Sweep::extruded;
+      of_file.direction[revolved ? 1 : 2] = 1.;
+      of_file.extent                      = revolved ? 2. * M_PI : idealization.thickness;
+    }
   of_file.name     = name;
   of_file.reversed = !chart.is_oriented();
-  add_loops(chart, of_file.sweep == cad::SplineFace::Sweep::revolved ? axes[0].unit : 1., of_file);
-  return result;
+  add_loops(chart, is_revolved ? section->first.axis(0).unit : 1., of_file);
+  return {of_file, summary};
 }
 
 template class DesignedFace<2>;
 template class DesignedFace<3>;
+template cad::SplineFace spline_face<3>(const io::SplineSurface<3> &,
+                                        const dealii::Tensor<1, 2> &,
+                                        const dealii::Tensor<1, 2> &);
 } // namespace snug::app

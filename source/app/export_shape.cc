@@ -125,7 +125,8 @@ void Results<dim>::report_profile(std::vector<std::string> lines)
     {
       std::ostringstream line;
       line << "profile.step: face " << face.name << ", "
-           << (face.kind == "curve" ? "swept B-spline of " : "B-splines of ") << face.spans.front();
+           << (face.kind == "revolved curve" ? "revolved B-spline of " : "B-splines of ")
+           << face.spans.front();
       for (unsigned int a = 1; a < face.spans.size(); ++a)
         line << " x " << face.spans[a];
       line << " spans, maximum deviation from the design " << face.deviation << unit;

@@ -54,8 +54,8 @@ class Profile(unittest.TestCase):
         written, = summary(self.output)["profile"]
         self.assertLessEqual(written["deviation"], written["asked"])
         # The crown is constant around the axis: a curve that is revolved.
-        self.assertIn("profile.step: face rim.tread, swept B-spline", log)
-        self.assertEqual(written["kind"], "curve")
+        self.assertIn("profile.step: face rim.tread, revolved B-spline", log)
+        self.assertEqual(written["kind"], "revolved curve")
         self.assertLess(len(written["spans"]), 2)
         self.assertIn("SURFACE_OF_REVOLUTION", step_text(step))
         crown = Crown(self.output, 50, -50, 14)
