@@ -288,6 +288,7 @@ def draw_models(path, view):
         if is_flat(state) and view:
             raise PlotError("--view is for bodies in space, but these are flat")
         model = Model(state, parameters, case, view)
-        groups.append(group_of(model, f"load case {case}" if case else "", units))
+        name = parameters.case_name(case)
+        groups.append(group_of(model, f"load case {name}" if name else "", units))
     hidden = "" if groups and model.flat else ", contact faces seen through the bodies"
     compose(f"{pathlib.Path(path).resolve().stem}: model{hidden}", groups, directory, "model.png")

@@ -35,10 +35,14 @@ class Parameters:
     def section(self, title):
         return self.sections.get(title, {})
 
+    def case_name(self, name):
+        """Return the name of a load case, that of the only one for ''."""
+        cases = self.names("Load cases")
+        return name or (cases[0] if len(cases) == 1 else "")
+
     def case(self, name):
         """Return the entries of a load case, of the only one for ''."""
-        cases = self.names("Load cases")
-        return self.section(f"Load case {name or (cases[0] if len(cases) == 1 else '')}")
+        return self.section(f"Load case {self.case_name(name)}")
 
     def position(self, case, name):
         """Return the motion of a body or an obstacle in a load case as a 4 x 4 matrix."""
