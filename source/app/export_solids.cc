@@ -1,7 +1,6 @@
 #include <snug/app/designed_face.h>
 #include <snug/app/results.h>
 #include <snug/cad/moved_solid.h>
-#include <snug/faces/closest_point.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/imported_mesh.h>
 #include <snug/geometry/placement.h>
@@ -11,66 +10,8 @@
 namespace snug::app {
 namespace {
 /// Points of the true surface within the edges of a face are closer to the mesh than this part of
-/// the size of the face.
-const double on_face = 1e-3;
-
-/// This class finds the displacements of a design at points of the true surface of a face.
-class Moves
-{
-public:
-  using Vector = dealii::Tensor<1, 3>;
-
-  explicit Moves(const DesignedFace<3> &face)
-    : face(face), of_nodes(face.shaped_face().mesh().degree()), of_samples(mesh::surface_degree)
-  {
-    for (const auto &one : face.shaped_face().surface().faces())
-      {
-        patches.push_back({one.samples.empty() ? one.nodes : one.samples, !one.samples.empty()});
-        auto &patch = patches.back();
-        for (const unsigned int point : patch.points)
-          patch.positions.push_back(face.shaped_face().positions()[point]);
-        for (const auto &x : patch.positions)
-          patch.radius = std::max(patch.radius, (x - patch.positions[0]).norm());
-      }
-  }
-
-  /// Return the displacement at the point of the face that is closest to @p x, or nothing if that
-  /// point is farther than @p limit.
-  std::optional<Vector> at(const Vector &x, const double limit) const
-  {
-    double                nearest = limit * limit;
-    std::optional<Vector> result;
-    for (const auto &patch : patches)
-      {
-        const double clear = (patch.positions[0] - x).norm() - 1.5 * patch.radius;
-        if (clear > 0. && clear * clear > nearest)
-          continue;
-        const auto &shape = patch.has_samples ? of_samples : of_nodes;
-        const auto  found = faces::closest_point(shape, patch.positions, x);
-        if (found.squared_distance >= nearest)
-          continue;
-        nearest           = found.squared_distance;
-        result            = Vector();
-        const auto values = shape.at(found.xi).value;
-        for (unsigned int k = 0; k < values.size(); ++k)
-          *result += values[k] * (face.positions()[patch.points[k]] - patch.positions[k]);
-      }
-    return result;
-  }
-
-private:
-  struct Patch
-  {
-    const std::vector<unsigned int> &points;
-    bool                             has_samples;
-    std::vector<Vector>              positions = {};
-    double                           radius    = 0.; ///< of a ball about the first point
-  };
-
-  const DesignedFace<3>    &face;
-  const faces::FaceShape<3> of_nodes, of_samples;
-  std::vector<Patch>        patches;
-};
+/// the size of an element.
+const double on_face = 1e-4;
 
 /// Return the surface of a design over the parameters of a face of a solid.
 io::SplineSurface<3> fitted(const cad::MovedSolid         &solid,
@@ -80,17 +21,16 @@ io::SplineSurface<3> fitted(const cad::MovedSolid         &solid,
                             const double                   asked,
                             const unsigned int             most_points)
 {
-  const Moves             moves(face);
-  const double            limit = on_face * face.size();
-  io::CoordinatePoints<3> points;
+  const shape::FacePlaces<3> places(face.shaped_face(), face.shaped_face().positions());
+  io::CoordinatePoints<3>    points;
   points.range  = domain.upper - domain.lower;
   points.closed = domain.closed;
   points.point  = [&](const dealii::Tensor<1, 2> &at) -> std::optional<dealii::Tensor<1, 3>> {
-    const dealii::Tensor<1, 3> x    = solid.point(f, domain.lower + at);
-    const auto                 move = moves.at(x, limit);
-    if (!move)
+    const dealii::Tensor<1, 3> x     = solid.point(f, domain.lower + at);
+    const auto                 place = places.closest(x, on_face);
+    if (!place)
       return {};
-    return x + *move;
+    return x + place->value(face.positions()) - place->value(face.shaped_face().positions());
   };
   return io::fit_splines(points, asked, most_points);
 }

@@ -246,10 +246,7 @@ double MovedSolid::write(const std::string                        &path,
         throw InputError("OpenCASCADE finds that the solid would not be valid");
       GProp_GProps properties;
       BRepGProp::VolumeProperties(solid, properties);
-      std::vector<NamedShape> faces;
-      for (unsigned int f = 0; f < names.size(); ++f)
-        faces.emplace_back(modifier.ModifiedShape(shapes->faces[f]), names[f]);
-      write_step(path, unit, {{solid, name}}, faces);
+      write_step(path, unit, {{solid, name}}, names);
       return properties.Mass();
     }
   catch (const Standard_Failure &failure)

@@ -15,10 +15,9 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPCAFControl_Writer.hxx>
-#include <STEPConstruct.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
-#include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_AdvancedFace.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TColgp_HArray1OfPnt2d.hxx>
@@ -31,8 +30,6 @@
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
-#include <XSControl_TransferWriter.hxx>
-#include <XSControl_WorkSession.hxx>
 #include <gp_Ax1.hxx>
 #include <gp_Dir.hxx>
 #include <gp_Pnt.hxx>
@@ -184,18 +181,20 @@ TopoDS_Face face_of(const SplineFace &face)
   return result;
 }
 
-/// Set the name of the entity of a face, which most programs take as the name of the face.
-void set_name(STEPCAFControl_Writer &writer, const TopoDS_Shape &face, const std::string &name)
+/// Set the names of the entities of faces, which most programs take as the names of the faces. The
+/// entities have the order of the faces, while the shapes of the faces may be replaced by copies.
+void set_names(const Handle(Interface_InterfaceModel) & model,
+               const std::vector<std::string> &names)
 {
-  const auto session = writer.ChangeWriter().WS();
-  const auto entity  = STEPConstruct::FindEntity(session->TransferWriter()->FinderProcess(), face);
-  if (!entity.IsNull())
-    entity->SetName(new TCollection_HAsciiString(name.c_str()));
+  auto name = names.begin();
+  for (int e = 1; e <= model->NbEntities() && name != names.end(); ++e)
+    if (const auto face = Handle(StepShape_AdvancedFace)::DownCast(model->Value(e)); !face.IsNull())
+      face->SetName(new TCollection_HAsciiString((name++)->c_str()));
 }
 
-void write(const std::string             &path,
-           const std::vector<NamedShape> &products,
-           const std::vector<NamedShape> &faces)
+void write(const std::string              &path,
+           const std::vector<NamedShape>  &products,
+           const std::vector<std::string> &faces)
 {
   // Messages of OpenCASCADE would go to the log.
   Message::DefaultMessenger()->ChangePrinters().Clear();
@@ -210,8 +209,7 @@ void write(const std::string             &path,
   writer.ChangeWriter().Model()->SetWriteLengthUnit(
     UnitsMethods::GetLengthFactorValue(Interface_Static::IVal("write.step.unit")));
   bool done = writer.Transfer(document, STEPControl_AsIs);
-  for (const auto &[face, name] : faces)
-    set_name(writer, face, name);
+  set_names(writer.ChangeWriter().Model(), faces);
   done = done && writer.Write(path.c_str()) == IFSelect_RetDone;
   XCAFApp_Application::GetApplication()->Close(document);
   if (!done)
@@ -242,10 +240,10 @@ bool is_step_unit(const std::string &unit)
   return step_units().count(unit) > 0;
 }
 
-void write_step(const std::string             &path,
-                const std::string             &unit,
-                const std::vector<NamedShape> &products,
-                const std::vector<NamedShape> &faces)
+void write_step(const std::string              &path,
+                const std::string              &unit,
+                const std::vector<NamedShape>  &products,
+                const std::vector<std::string> &faces)
 {
   const STEPCAFControl_Writer declares_the_parameters;
   const std::string           known = step_units().at(is_step_unit(unit) ? unit : "mm");
@@ -266,9 +264,13 @@ void write_step(const std::string             &path,
                 const std::string             &unit,
                 const std::vector<SplineFace> &faces)
 {
-  std::vector<NamedShape> made;
+  std::vector<NamedShape>  made;
+  std::vector<std::string> names;
   for (const auto &face : faces)
-    made.emplace_back(face_of(face), face.name);
-  write_step(path, unit, made, made);
+    {
+      made.emplace_back(face_of(face), face.name);
+      names.push_back(face.name);
+    }
+  write_step(path, unit, made, names);
 }
 } // namespace snug::cad

@@ -10,9 +10,18 @@ namespace {
 /// Cosine of the angle between two chords of the border at which a loop has a corner: 25 degrees.
 const double corner_cosine = 0.906;
 
-/// A point may lie outside of all faces of the mesh by this part of an edge, because neighbouring
+/// A point may lie outside of all faces of the mesh by this part of a face, because neighbouring
 /// faces interpolate the coordinates of their common edge separately.
-const double most_outside = 0.01;
+const double most_outside = 1e-6;
+
+/// Return coordinates without the last component of the vectors of FacePlaces, which is zero.
+dealii::Tensor<1, 2> flat(const dealii::Tensor<1, 3> &x)
+{
+  dealii::Tensor<1, 2> result;
+  result[0] = x[0];
+  result[1] = x[1];
+  return result;
+}
 
 double cross(const dealii::Tensor<1, 2> &a, const dealii::Tensor<1, 2> &b)
 {
@@ -70,109 +79,34 @@ smooth_pieces(const std::vector<dealii::Tensor<1, 2>> &points)
 } // namespace
 
 template <int dim>
-FaceChart<dim>::FaceChart(const ShapedFace<dim> &face, const std::vector<FaceCoordinate> &axes)
-  : face(face)
+FaceChart<dim>::FaceChart(const ShapedFace<dim> &face, const FaceCoordinates<dim> &coordinates)
+  : face(face), places(face, coordinates.as_lengths(), coordinates.periods())
 {
   for (unsigned int a = 0; a < dim - 1; ++a)
     {
-      ranges[a] = axes[a].range * axes[a].unit;
-      closed[a] = axes[a].closed;
+      ranges[a] = coordinates.axis(a).range * coordinates.axis(a).unit;
+      closed[a] = coordinates.axis(a).closed;
     }
-  for (const auto &one : face.surface().faces())
-    {
-      const bool has_samples = !one.samples.empty();
-      Patch      patch;
-      patch.points = has_samples ? &one.samples : &one.nodes;
-      patch.degree = has_samples ? mesh::surface_degree : face.mesh().degree();
-      for (const unsigned int point : *patch.points)
+  for (const auto &patch : places.patches())
+    if constexpr (dim == 3)
+      for (unsigned int side = 0; side < 4; ++side)
         {
-          Flat flat;
-          for (unsigned int a = 0; a < dim - 1; ++a)
-            {
-              flat[a] = axes[a].values[point] * axes[a].unit;
-              if (closed[a] && !patch.flat.empty())
-                flat[a] -= ranges[a] * std::round((flat[a] - patch.flat.front()[a]) / ranges[a]);
-            }
-          patch.flat.push_back(flat);
+          const auto points = side_points(patch.middle.degree, side);
+          for (unsigned int k = 0; k < patch.middle.degree; ++k)
+            area += 0.5 * cross(flat(patch.values[points[k]] - patch.values[0]),
+                                flat(patch.values[points[k + 1]] - patch.values[0]));
         }
-      for (const auto &flat : patch.flat)
-        patch.centre += flat / double(patch.flat.size());
-      patch.radius = 0.;
-      for (const auto &flat : patch.flat)
-        patch.radius = std::max(patch.radius, (flat - patch.centre).norm());
-      if constexpr (dim == 3)
-        for (unsigned int side = 0; side < 4; ++side)
-          {
-            const auto points = side_points(patch.degree, side);
-            for (unsigned int k = 0; k < patch.degree; ++k)
-              area += 0.5 * cross(patch.flat[points[k]] - patch.centre,
-                                  patch.flat[points[k + 1]] - patch.centre);
-          }
-      else
-        area += patch.flat.back()[0] - patch.flat.front()[0];
-      patches.push_back(patch);
-    }
-}
-
-/// Find the coordinates xi of the target in one face of the mesh by Newton's method. @p outside is
-/// the maximum distance of xi from [0,1].
-template <int dim>
-std::optional<typename FaceChart<dim>::Place>
-FaceChart<dim>::find(const Flat &target, const Patch &patch, double &outside) const
-{
-  Place place{patch.points, patch.degree, {}};
-  for (unsigned int a = 0; a < dim - 1; ++a)
-    place.xi[a] = 0.5;
-  for (unsigned int iteration = 0; iteration < 15; ++iteration)
-    {
-      const auto                 values   = place.shape();
-      Flat                       residual = target;
-      dealii::Tensor<2, dim - 1> J;
-      for (unsigned int k = 0; k < patch.flat.size(); ++k)
-        {
-          residual -= values.value[k] * patch.flat[k];
-          J += outer_product(patch.flat[k], values.gradient[k]);
-        }
-      if (!(std::abs(determinant(J)) > 1e-12 * std::pow(patch.radius, dim - 1)))
-        return {}; // the target lies at a pole, or far from the face
-      const Flat step = invert(J) * residual;
-      place.xi += step;
-      if (!(step.norm() < 10.))
-        return {};
-      if (step.norm() < 1e-11)
-        {
-          outside = 0.;
-          for (unsigned int a = 0; a < dim - 1; ++a)
-            outside = std::max({outside, -place.xi[a], place.xi[a] - 1.});
-          return place;
-        }
-    }
-  return {};
+    else
+      area += patch.values.back()[0] - patch.values.front()[0];
 }
 
 template <int dim>
 std::optional<typename FaceChart<dim>::Place> FaceChart<dim>::find(const Flat &target) const
 {
-  std::optional<Place> best;
-  double               least = most_outside;
-  for (const auto &patch : patches)
-    {
-      Flat near = target;
-      for (unsigned int a = 0; a < dim - 1; ++a)
-        if (closed[a])
-          near[a] -= ranges[a] * std::round((near[a] - patch.centre[a]) / ranges[a]);
-      if ((near - patch.centre).norm() > 1.1 * patch.radius)
-        continue;
-      double     outside = 0.;
-      const auto place   = find(near, patch, outside);
-      if (!place || outside >= least)
-        continue;
-      best  = place;
-      least = outside;
-      if (outside == 0.)
-        break;
-    }
-  return best;
+  dealii::Tensor<1, dim> at;
+  for (unsigned int a = 0; a < dim - 1; ++a)
+    at[a] = target[a];
+  return places.closest(at, most_outside);
 }
 
 template <int dim>
@@ -200,14 +134,14 @@ typename FaceChart<dim>::Edges FaceChart<dim>::border_edges() const
     const auto  points = side_points(face.mesh().degree(), side);
     return Ends(nodes[points.front()], nodes[points.back()]);
   };
-  for (unsigned int f = 0; f < patches.size(); ++f)
+  for (unsigned int f = 0; f < places.patches().size(); ++f)
     for (unsigned int side = 0; side < 4; ++side)
       {
         const Ends ends = ends_of(f, side);
         ++uses[std::minmax(ends.first, ends.second)];
       }
   Edges result;
-  for (unsigned int f = 0; f < patches.size(); ++f)
+  for (unsigned int f = 0; f < places.patches().size(); ++f)
     for (unsigned int side = 0; side < 4; ++side)
       {
         const Ends ends = ends_of(f, side);
@@ -215,8 +149,9 @@ typename FaceChart<dim>::Edges FaceChart<dim>::border_edges() const
             !face.border()[ends.second])
           continue;
         Piece piece;
-        for (const unsigned int k : side_points(patches[f].degree, side))
-          piece.push_back(patches[f].flat[k]);
+        if constexpr (dim == 3)
+          for (const unsigned int k : side_points(places.patches()[f].middle.degree, side))
+            piece.push_back(flat(places.patches()[f].values[k]));
         result[ends.first] = {ends.second, piece};
       }
   return result;

@@ -1,7 +1,7 @@
 #include <snug/base/errors.h>
-#include <snug/faces/closest_point.h>
 #include <snug/shape/entries.h>
 #include <snug/shape/face_coordinates.h>
+#include <snug/shape/face_places.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -234,39 +234,22 @@ std::vector<double> FaceCoordinates<dim>::fractions(const unsigned int point) co
   return result;
 }
 
-/// Return coordinates as lengths.
 template <int dim>
-dealii::Tensor<1, dim> FaceCoordinates<dim>::flattened(const std::vector<double> &coordinates) const
+std::vector<dealii::Tensor<1, dim>> FaceCoordinates<dim>::as_lengths() const
 {
-  dealii::Tensor<1, dim> result;
-  for (unsigned int a = 0; a < axes.size(); ++a)
-    result[a] = coordinates[a] * axes[a].unit;
+  std::vector<dealii::Tensor<1, dim>> result(face.positions().size());
+  for (unsigned int k = 0; k < result.size(); ++k)
+    for (unsigned int a = 0; a < axes.size(); ++a)
+      result[k][a] = axes[a].values[k] * axes[a].unit;
   return result;
 }
 
-/// Return the flattened points of a face of the mesh, moved by periods so that the face is whole
-/// and its first point is near the target.
 template <int dim>
-std::vector<dealii::Tensor<1, dim>>
-FaceCoordinates<dim>::flattened(const std::vector<unsigned int> &points,
-                                const dealii::Tensor<1, dim>    &target) const
+dealii::Tensor<1, dim> FaceCoordinates<dim>::periods() const
 {
-  std::vector<dealii::Tensor<1, dim>> result;
-  for (const unsigned int point : points)
-    {
-      std::vector<double> coordinates;
-      for (const auto &axis : axes)
-        coordinates.push_back(axis.values[point]);
-      auto flat = flattened(coordinates);
-      for (unsigned int a = 0; a < axes.size(); ++a)
-        if (axes[a].closed)
-          {
-            const double near   = result.empty() ? target[a] : result.front()[a];
-            const double period = axes[a].range * axes[a].unit;
-            flat[a] -= period * std::round((flat[a] - near) / period);
-          }
-      result.push_back(flat);
-    }
+  dealii::Tensor<1, dim> result;
+  for (unsigned int a = 0; a < axes.size(); ++a)
+    result[a] = axes[a].closed ? axes[a].range * axes[a].unit : 0.;
   return result;
 }
 
@@ -274,39 +257,12 @@ template <int dim>
 std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
 FaceCoordinates<dim>::point_at(const std::vector<double> &fractions, const Field &directions) const
 {
-  std::vector<double> coordinates;
+  dealii::Tensor<1, dim> target;
   for (unsigned int a = 0; a < axes.size(); ++a)
-    coordinates.push_back(fractions[a] * axes[a].range);
-  const auto                  target = flattened(coordinates);
-  const faces::FaceShape<dim> of_nodes(face.mesh().degree()), of_samples(mesh::surface_degree);
-  double                      nearest = std::numeric_limits<double>::max();
-  dealii::Tensor<1, dim>      position, direction;
-  for (const auto &one : face.surface().faces())
-    {
-      const auto &points = one.samples.empty() ? one.nodes : one.samples;
-      const auto &shape  = one.samples.empty() ? of_nodes : of_samples;
-      const auto  flat   = flattened(points, target);
-      double      radius = 0.;
-      for (const auto &point : flat)
-        radius = std::max(radius, (point - flat.front()).norm());
-      // Faces farther from the target than the nearest point so far are skipped. The factor 1.5
-      // allows for edges that bulge between points.
-      if ((flat.front() - target).norm() - 1.5 * radius > std::sqrt(nearest))
-        continue;
-      const auto found = faces::closest_point(shape, flat, target);
-      if (found.squared_distance >= nearest)
-        continue;
-      nearest           = found.squared_distance;
-      position          = 0.;
-      direction         = 0.;
-      const auto values = shape.at(found.xi);
-      for (unsigned int k = 0; k < points.size(); ++k)
-        {
-          position += values.value[k] * face.positions()[points[k]];
-          direction += values.value[k] * directions[points[k]];
-        }
-    }
-  return {dealii::Point<dim>(position), direction / direction.norm()};
+    target[a] = fractions[a] * axes[a].range * axes[a].unit;
+  const auto place     = FacePlaces<dim>(face, as_lengths(), periods()).closest(target);
+  const auto direction = place->value(directions);
+  return {dealii::Point<dim>(place->value(face.positions())), direction / direction.norm()};
 }
 
 #define SNUG_INSTANTIATE(dim)                                             \

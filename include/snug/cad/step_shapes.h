@@ -13,12 +13,12 @@ using NamedShape = std::pair<TopoDS_Shape, std::string>;
 /// Return the surface of a face with two parameters.
 Handle(Geom_BSplineSurface) surface_of(const SplineFace &face);
 
-/// Write products, and set the names of the entities of @p faces, which belong to the products.
-/// See write_step() for faces.
-void write_step(const std::string             &path,
-                const std::string             &unit,
-                const std::vector<NamedShape> &products,
-                const std::vector<NamedShape> &faces);
+/// Write products whose faces have the names @p faces, in the order of TopExp::MapShapes(). See
+/// write_step() for faces.
+void write_step(const std::string              &path,
+                const std::string              &unit,
+                const std::vector<NamedShape>  &products,
+                const std::vector<std::string> &faces);
 } // namespace snug::cad
 
 #endif

@@ -31,7 +31,10 @@ public:
 
   const FaceCoordinate &axis(unsigned int a) const { return axes[a]; }
 
-  const std::vector<FaceCoordinate> &all_axes() const { return axes; }
+  /// Return the coordinates of the surface points as the first components of vectors, with angles
+  /// multiplied by their unit, and the periods of the components (0: none).
+  std::vector<dealii::Tensor<1, dim>> as_lengths() const;
+  dealii::Tensor<1, dim>              periods() const;
 
   /// Return the axis of the angle, or the direction of the extrusion of a face with arc lengths.
   const Axis &line() const { return own_line; }
@@ -51,9 +54,6 @@ private:
   void set_projection();
   void set_angles(const FacePoints &points, const ShapeParameters &parameters);
   void set_arc_lengths(const FacePoints &points, const ShapeParameters &parameters);
-  dealii::Tensor<1, dim>              flattened(const std::vector<double> &coordinates) const;
-  std::vector<dealii::Tensor<1, dim>> flattened(const std::vector<unsigned int> &points,
-                                                const dealii::Tensor<1, dim>    &target) const;
 
   const ShapedFace<dim>      &face;
   Coordinates                 chosen;

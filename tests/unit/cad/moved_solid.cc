@@ -10,10 +10,15 @@
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 #include <STEPControl_Reader.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -97,6 +102,7 @@ struct Read
 {
   TopoDS_Shape               shape;
   TopTools_IndexedMapOfShape faces;
+  std::vector<std::string>   names;
 
   explicit Read(const std::string &path)
   {
@@ -106,6 +112,12 @@ struct Read
     shape = reader.OneShape();
     std::filesystem::remove(path);
     TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    for (int f = 1; f <= faces.Extent(); ++f)
+      {
+        const auto item = Handle(StepRepr_RepresentationItem)::DownCast(
+          reader.WS()->TransferReader()->EntityFromShapeResult(faces(f), 1));
+        names.push_back(item.IsNull() ? "" : item->Name()->ToCString());
+      }
     TopTools_IndexedMapOfShape solids, shells;
     TopExp::MapShapes(shape, TopAbs_SOLID, solids);
     TopExp::MapShapes(shape, TopAbs_SHELL, shells);
@@ -166,9 +178,11 @@ TEST(MovedSolid, ABoxWithAMovedTopIsClosed)
     result[2] = 0.1 * (x[0] - 10.) * x[1] / 16.;
     return result;
   };
-  const auto   path   = scratch_file();
-  const double volume = solid.write(path, "mm", "box", std::vector<std::string>(6, "box.side"),
-                                    {{top, moved_face(solid, top, 3, move)}}, 1e-6);
+  const auto               path = scratch_file();
+  std::vector<std::string> names(6, "box.side");
+  names[top] = "box.top";
+  const double volume =
+    solid.write(path, "mm", "box", names, {{top, moved_face(solid, top, 3, move)}}, 1e-6);
   EXPECT_NEAR(volume, 16.4, 1e-9);
   const Read read(path);
   EXPECT_EQ(read.faces.Extent(), 6);
