@@ -17,9 +17,6 @@ using shape::Coordinates;
 /// Displacements are constant along a coordinate up to this part of the maximum displacement.
 const double constant = 1e-6;
 
-/// Numbers below this part of the size of a face are round-off.
-const double round_off = 1e-12;
-
 /// Maximum number of control points of a curve.
 const unsigned int most_of_curve = 500;
 
@@ -97,12 +94,10 @@ std::vector<unsigned int> ranks_of(const std::vector<double> &values, const doub
   return ranks;
 }
 
-/// Return the coordinates of the chart of B-splines on a swept or other face as loops.
 /// Set the loops of a face that does not fill the rectangle of its coordinates. The first parameter
 /// of the face is the first coordinate divided by @p unit.
 /// @throws InputError if the coordinates are closed.
-void add_loops(const shape::FaceChart<2> & /*chart*/, double /*unit*/, cad::SplineFace & /*face*/)
-{}
+void add_loops(const shape::FaceChart<2> &, double, cad::SplineFace &) {}
 void add_loops(const shape::FaceChart<3> &chart, const double unit, cad::SplineFace &face)
 {
   if (chart.fills_rectangle())
@@ -121,7 +116,6 @@ void add_loops(const shape::FaceChart<3> &chart, const double unit, cad::SplineF
         }
     }
 }
-
 } // namespace
 
 template <int dim>
@@ -195,30 +189,26 @@ bool DesignedFace<dim>::is_interpolated(const unsigned int point) const
 template <int dim>
 bool DesignedFace<dim>::depends_on(const shape::FaceCoordinate &coordinate) const
 {
-  std::vector<double> values, of_value;
+  std::vector<std::pair<double, double>> sorted; // coordinate, displacement
   for (unsigned int k = 0; k < moves.size(); ++k)
     if (!is_interpolated(k))
-      {
-        values.push_back(coordinate.values[k]);
-        of_value.push_back(moves[k]);
-      }
-  const auto                ranks = ranks_of(values, coordinate.range);
-  const unsigned int        n     = *std::max_element(ranks.begin(), ranks.end()) + 1;
-  std::vector<double>       low(n, HUGE_VAL), top(n, -HUGE_VAL);
-  std::vector<unsigned int> count(n, 0);
-  for (unsigned int k = 0; k < ranks.size(); ++k)
+      sorted.emplace_back(coordinate.values[k], moves[k]);
+  std::sort(sorted.begin(), sorted.end());
+  const double rounding  = constant * largest_move;
+  const auto   continues = [&](const unsigned int k) {
+    return sorted[k].first - sorted[k - 1].first <= equal * coordinate.range;
+  };
+  unsigned int first = 0; // of the points at the same coordinate
+  for (unsigned int k = 1; k < sorted.size(); ++k)
     {
-      low[ranks[k]] = std::min(low[ranks[k]], of_value[k]);
-      top[ranks[k]] = std::max(top[ranks[k]], of_value[k]);
-      ++count[ranks[k]];
-    }
-  const double rounding = constant * largest_move;
-  for (unsigned int g = 0; g < n; ++g)
-    {
-      const bool is_alone = count[g] == 1 && g > 0 && g + 1 < n;
-      if (top[g] - low[g] > rounding ||
-          (is_alone && (top[g] > std::max(top[g - 1], top[g + 1]) + rounding ||
-                        low[g] < std::min(low[g - 1], low[g + 1]) - rounding)))
+      const double move = sorted[k].second;
+      first             = continues(k) ? first : k;
+      if (std::abs(move - sorted[first].second) > rounding)
+        return false;
+      if (first != k || k + 1 == sorted.size() || continues(k + 1))
+        continue;
+      const auto [low, top] = std::minmax(sorted[k - 1].second, sorted[k + 1].second);
+      if (move < low - rounding || move > top + rounding)
         return false;
     }
   return true;
@@ -227,22 +217,24 @@ bool DesignedFace<dim>::depends_on(const shape::FaceCoordinate &coordinate) cons
 template <int dim>
 double DesignedFace<dim>::size() const
 {
-  auto lower = at_points.front(), upper = lower;
-  for (const auto &x : at_points)
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] = std::min(lower[d], x[d]);
-        upper[d] = std::max(upper[d], x[d]);
-      }
-  return (upper - lower).norm();
+  Vector extent;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const auto [low, top] =
+        std::minmax_element(at_points.begin(), at_points.end(),
+                            [d](const auto &a, const auto &b) { return a[d] < b[d]; });
+      extent[d] = (*top)[d] - (*low)[d];
+    }
+  return extent.norm();
 }
 
 template <int dim>
 std::array<unsigned int, 2> DesignedFace<dim>::place(const unsigned int global_node) const
 {
   const unsigned int node = face->surface().find(global_node);
-  return ranks.empty() ? std::array<unsigned int, 2>{{0, 0}}
-                       : std::array<unsigned int, 2>{{ranks.front()[node], ranks.back()[node]}};
+  if (ranks.empty())
+    return {{0, 0}};
+  return {{ranks.front()[node], ranks.back()[node]}};
 }
 
 template <int dim>
@@ -252,7 +244,7 @@ std::string DesignedFace<dim>::crown(const std::string                          
   const auto &surface = face->surface();
   const auto  m =
     io::mean_normal(surface, io::surface_pieces(surface).front(), face->mesh().degree(), planes);
-  if (!section || !(largest_move > round_off * size()))
+  if (!section || largest_move <= 1e-12 * size())
     return "";
   const auto &[own, along] = *section;
   const auto axis          = own.line();
@@ -292,15 +284,13 @@ std::string DesignedFace<dim>::crown(const std::string                          
     text << "the face";
   text << (unit.empty() ? "" : ", in " + unit) << ":\n      position   drop before    drop after\n"
        << std::setprecision(5);
-  const auto shown = [&](const double x) {
-    return std::abs(x) <= constant * largest_move ? 0. : x;
-  };
+  const double rounding = constant * largest_move;
+  const auto   shown    = [&](const double x) { return std::abs(x) <= rounding ? 0. : x; };
   const double first = sorted.begin()->first, range = sorted.rbegin()->first - first;
   for (unsigned int row = 0; row < n_rows; ++row)
     {
-      const auto next = sorted.lower_bound(first + (row / (n_rows - 1.) - equal) * range);
-      const auto k    = next->second;
-      text << std::setw(14) << shown(next->first) << std::setw(14)
+      const auto [at, k] = *sorted.lower_bound(first + (row / (n_rows - 1.) - equal) * range);
+      text << std::setw(14) << shown(at) << std::setw(14)
            << shown(before - height(face->positions()[k])) << std::setw(14)
            << shown(after - height(at_points[k])) << '\n';
     }

@@ -58,6 +58,8 @@ public:
   const std::vector<Patch> &patches() const { return own_patches; }
 
 private:
+  Vector near(Vector target, const Patch &patch) const;
+
   const Vector                periods;
   const faces::FaceShape<dim> of_nodes, of_samples;
   std::vector<Patch>          own_patches; ///< per face of the surface
