@@ -68,7 +68,9 @@ std::vector<shape::FaceCoordinates<dim>> all_coordinates(const shape::ShapedFace
         result.emplace_back(face, parameters);
       }
     catch (const InputError &)
-      {}
+      {
+        continue; // the face has no such coordinates
+      }
   return result;
 }
 

@@ -299,16 +299,16 @@ std::string rows_text(const Sources<dim>             &sources,
       text += std::to_string(row.named) + ',' +
               std::to_string(sources.number_of[sources.surface.global_node(row.slave)] + 1);
       for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + exact(fields.positions[row.slave][c]);
+        text += ',' + rounded(fields.positions[row.slave][c]);
       for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + exact(at.normals[row.slave][c]);
-      text += dim == 2 ? ',' + exact(at.arc_length[row.slave]) : "";
+        text += ',' + rounded(at.normals[row.slave][c]);
+      text += dim == 2 ? ',' + rounded(at.arc_length[row.slave]) : "";
       for (const double x : {point.force, point.pressure, point.gap, point.area})
-        text += ',' + exact(x);
+        text += ',' + rounded(x);
       text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1" : ",0");
       for (const auto &vector : {point.traction, point.slip})
         for (unsigned int c = 0; friction && c < dim; ++c)
-          text += ',' + exact(vector[c]);
+          text += ',' + rounded(vector[c]);
       text += friction ? "," + to_text(point.friction) + '\n' : "\n";
     }
   return text;

@@ -53,9 +53,7 @@ struct TrueFace
 /// Return a column with 9 digits, with 0 for round-off of numbers of the size @p size.
 std::string column(const double x, const double size)
 {
-  char text[32];
-  std::snprintf(text, sizeof(text), ",%.9g", std::abs(x) <= round_off * size ? 0. : x);
-  return text;
+  return ',' + rounded(std::abs(x) <= round_off * size ? 0. : x);
 }
 
 /// Return the columns of the components of a vector.

@@ -68,15 +68,15 @@ void write_control_points(const std::string                         &path,
     {
       text += point.shape + ',' + std::to_string(point.index);
       for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + exact(point.position[c]);
+        text += ',' + rounded(point.position[c]);
       for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + exact(point.move[c]);
+        text += ',' + rounded(point.move[c]);
       text += ',';
       for (const auto &[variable, sign] : point.variables)
         text += (text.back() == ',' ? "" : " ") + std::string(sign < 0. ? "-" : "") + "design[" +
                 std::to_string(variable) + ']';
       for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + exact(point.on_body[c]);
+        text += ',' + rounded(point.on_body[c]);
       text += '\n';
     }
   write_text_file(path, text);
@@ -106,9 +106,9 @@ void write_gradients(const std::string                         &path,
             }
       text += std::to_string(i) + ',' + (first != nullptr ? first->shape : "") + ',' + indices;
       for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + (first != nullptr ? exact(first->on_body[c]) : "");
+        text += ',' + (first != nullptr ? rounded(first->on_body[c]) : "");
       for (const auto &gradient : gradients)
-        text += ',' + exact(gradient[i]);
+        text += ',' + rounded(gradient[i]);
       text += '\n';
     }
   write_text_file(path, text);

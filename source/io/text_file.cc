@@ -39,6 +39,13 @@ std::string exact(double x)
   return text;
 }
 
+std::string rounded(const double x)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.9g", x);
+  return text;
+}
+
 std::string padded(unsigned int number, unsigned int digits)
 {
   const std::string text = std::to_string(number);

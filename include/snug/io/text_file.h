@@ -17,6 +17,9 @@ void write_text_file(const std::string &path, const std::string &text);
 /// Return @p x with 17 significant digits, from which the same number is read.
 std::string exact(double x);
 
+/// Return @p x with 9 digits, for tables that people read.
+std::string rounded(double x);
+
 /// Return @p number with leading zeros to at least @p digits digits.
 std::string padded(unsigned int number, unsigned int digits);
 
