@@ -20,8 +20,6 @@ const double constant = 1e-6;
 /// Maximum number of control points of a curve.
 const unsigned int most_of_curve = 500;
 
-const unsigned int n_rows = 9; ///< of the table of the drop
-
 /// Coordinates are equal up to this part of their range.
 const double equal = 1e-9;
 
@@ -155,11 +153,11 @@ DesignedFace<dim>::DesignedFace(const mesh::BodyMesh<dim>    &mesh,
     }
   const auto all = all_coordinates<dim>(*face, parameters);
   // A design may be constant around an axis, along an extrusion, or else across a plane.
-  for (const bool is_flat : {false, true})
+  for (const auto kind : {Coordinates::angle, Coordinates::arc_length, Coordinates::projection})
     for (const auto &one : all)
       for (unsigned int a = 0; a < dim - 1; ++a)
-        if (!section && (one.kind() == Coordinates::projection) == is_flat &&
-            (is_flat || dim == 2 || (one.kind() == Coordinates::angle) == (a == 1)) &&
+        if (!section && one.kind() == kind &&
+            (kind == Coordinates::projection || (kind == Coordinates::angle) == (a == 1)) &&
             depends_on(one.axis(a)))
           section.emplace(one, a);
   if (all.empty())
@@ -280,18 +278,21 @@ std::string DesignedFace<dim>::crown(const std::string                          
   text << "face " << name << ", drop " << (radial || !around ? "along " : "by distances from ");
   if (around)
     text << "the axis (" << axis.direction << ')';
-  else if (own.kind() == Coordinates::projection)
-    text << "xyz"[own.projection_axes()[along]];
   else
-    text << "the face";
+    text << (own.kind() == Coordinates::projection
+               ? std::string(1, "xyz"[own.projection_axes()[along]])
+               : "the face");
   text << (unit.empty() ? "" : ", in " + unit) << ":\n      position   drop before    drop after\n"
        << std::setprecision(5);
   const double rounding = constant * largest_move;
   const auto   shown    = [&](const double x) { return std::abs(x) <= rounding ? 0. : x; };
   const double first = sorted.begin()->first, range = sorted.rbegin()->first - first;
-  for (unsigned int row = 0; row < n_rows; ++row)
+  unsigned int row = 0;
+  for (const auto &[at, k] : sorted)
     {
-      const auto [at, k] = *sorted.lower_bound(first + (row / (n_rows - 1.) - equal) * range);
+      if (at < first + (row / 8. - equal) * range)
+        continue;
+      ++row;
       text << std::setw(14) << shown(at) << std::setw(14)
            << shown(before - height(face->positions()[k])) << std::setw(14)
            << shown(after - height(at_points[k])) << '\n';
