@@ -111,7 +111,13 @@ public:
     const Handle(ShapeConstruct_ProjectCurveOnSurface) projection =
       new ShapeConstruct_ProjectCurveOnSurface();
     projection->Init(surface, 0.1 * tolerance);
+    const gp_Pnt2d before = curve->Value(first);
     projection->Perform(in_space, first, last, curve);
+    if (!curve.IsNull() && surface->IsUPeriodic())
+      {
+        const double turns = (before.X() - curve->Value(first).X()) / surface->UPeriod();
+        curve->Translate(gp_Vec2d(surface->UPeriod() * std::round(turns), 0.));
+      }
     for (unsigned int k = 0; k <= 20 && !curve.IsNull(); ++k)
       {
         const double   t  = first + (last - first) * k / 20.;

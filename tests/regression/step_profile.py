@@ -96,6 +96,18 @@ class Profile(unittest.TestCase):
         area = 0.28 * 50 * 20
         self.assertAlmostEqual(step_volume(step), 0.28 * section, delta=(2 * asked + 1e-5) * area)
 
+    def test_a_face_beside_a_held_edge_stays(self):
+        # The shoulder continues the cylinder of the tread, whose edge does not move.
+        held = "Shape/Initial=-0.03, -0.02, -0.01, -0.005, 0, 0, 0, 0"
+        log = run("prm/step-roller.prm", [*COARSE, held], self.output)
+        self.assertIn("rim.step: solid of 7 faces, 1 of them moved", log)
+        crown = Crown(self.output, 50, -50, 14)
+        section = sum(((50 + crown.height(14 * (k + 0.5) / 2000))**2 - 36**2) / 2 * 14 / 2000
+                      for k in range(2000)) + 6 * (50**2 - 36**2) / 2
+        asked = summary(self.output)["profile"][0]["asked"]
+        self.assertAlmostEqual(step_volume(self.output / "rim.step"), 0.28 * section,
+                               delta=(2 * asked + 1e-5) * 0.28 * 50 * 14)
+
     def test_a_face_beside_a_moved_edge_prevents_the_solid(self):
         log = run("prm/step-roller.prm", COARSE, self.output)
         self.assertIn("rim.step is not written: the design moves an edge off the face rim.shoulder", log)
