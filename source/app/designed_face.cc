@@ -17,8 +17,7 @@ using shape::Coordinates;
 /// Displacements are constant along a coordinate up to this part of the maximum displacement.
 const double constant = 1e-6;
 
-/// Maximum number of control points of a curve.
-const unsigned int most_of_curve = 500;
+const unsigned int most_of_curve = 500; ///< control points of a curve
 
 /// Coordinates are equal up to this part of their range.
 const double equal = 1e-9;
@@ -46,17 +45,14 @@ template <int dim>
 std::vector<shape::FaceCoordinates<dim>> all_coordinates(const shape::ShapedFace<dim> &face,
                                                          shape::ShapeParameters        parameters)
 {
+  static const double x_to_z[] = {0., 0., 1., 0., 0.}; // z, y and x, each of three numbers
   std::vector<std::pair<Coordinates, std::vector<double>>> choices = {
     {Coordinates::arc_length, parameters.axis},
     {Coordinates::projection, {}},
     {Coordinates::angle, parameters.axis}};
   if (dim == 3 && parameters.axis.empty())
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        std::vector<double> axis(3, 0.);
-        axis[d] = 1.;
-        choices.emplace_back(Coordinates::angle, axis);
-      }
+    for (const double *axis : {x_to_z, x_to_z + 1, x_to_z + 2})
+      choices.emplace_back(Coordinates::angle, std::vector<double>(axis, axis + 3));
   std::vector<shape::FaceCoordinates<dim>> result;
   for (const auto &[kind, axis] : choices)
     try
@@ -282,7 +278,8 @@ std::string DesignedFace<dim>::crown(const std::string                          
     text << (own.kind() == Coordinates::projection
                ? std::string(1, "xyz"[own.projection_axes()[along]])
                : "the face");
-  text << (unit.empty() ? "" : ", in " + unit) << ":\n      position   drop before    drop after\n"
+  text << (unit.empty() ? "" : ", in " + unit)
+       << ":\n      position   drop before    drop after        change\n"
        << std::setprecision(5);
   const double rounding = constant * largest_move;
   const auto   shown    = [&](const double x) { return std::abs(x) <= rounding ? 0. : x; };
@@ -293,9 +290,10 @@ std::string DesignedFace<dim>::crown(const std::string                          
       if (at < first + (row / 8. - equal) * range)
         continue;
       ++row;
-      text << std::setw(14) << shown(at) << std::setw(14)
-           << shown(before - height(face->positions()[k])) << std::setw(14)
-           << shown(after - height(at_points[k])) << '\n';
+      const Vector &x = face->positions()[k], &y = at_points[k];
+      for (const double number : {at, before - height(x), after - height(y), height(y) - height(x)})
+        text << std::setw(14) << shown(number);
+      text << '\n';
     }
   return text.str();
 }
@@ -381,10 +379,10 @@ DesignedFace<dim>::splines(const double asked) const
     }
   if (dim == 2)
     {
-      const auto &idealization = face->mesh().idealization();
-      const bool  revolved     = idealization.is_axisymmetric();
-      of_file.sweep =
-        revolved ? cad::SplineFace::Sweep::revolved : cad::SplineFace::Sweep::extruded;
+      const auto &idealization            = face->mesh().idealization();
+      const bool  revolved                = idealization.is_axisymmetric();
+      using Sweep                         = cad::SplineFace::Sweep;
+      of_file.sweep                       = revolved ? Sweep::revolved : Sweep::extruded;
       of_file.direction[revolved ? 1 : 2] = 1.;
       of_file.extent                      = revolved ? 2. * M_PI : idealization.thickness;
     }

@@ -91,7 +91,7 @@ typename Objective<dim>::Quantity Objective<dim>::make_constraint(const std::str
   const auto of    = scene::constraint_name(problem.scene, name);
   const auto bound = optimization::read_limit(limit);
   Quantity   constraint;
-  constraint.name     = name + ' ' + limit;
+  constraint.name     = optimization::constraint_text(name, limit);
   constraint.of       = of.response;
   constraint.response = problem.make_response(of.response);
   constraint.target   = bound.value;

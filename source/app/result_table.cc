@@ -52,6 +52,24 @@ std::string remark_of(const typename Objective<dim>::ConstraintValue &constraint
   return remark;
 }
 
+/// Return the change of the objective, such as "5.2 % lower".
+std::string change_of(const double first, const double last)
+{
+  if (first == 0. || first == last)
+    return "not changed";
+  std::ostringstream text;
+  text << std::setprecision(3) << 100. * std::abs((last - first) / first) << " % "
+       << (last < first ? "lower" : "higher");
+  return text.str();
+}
+
+/// Return the quantity of a response, or nothing if this is its name.
+std::string quantity_of(const scene::Scene &scene, const std::string &response)
+{
+  const auto quantity = scene::response_called(scene, response)->quantity;
+  return quantity == response ? "" : quantity;
+}
+
 /// Return where a state has the value that is called as in `maxima`.
 template <int dim>
 std::string place_of(const ShapeProblem<dim>        &problem,
@@ -104,7 +122,8 @@ void print_result_table(const Search<dim>                        &search,
   const std::string combined  = to_text(scene.optimization.combine);
   const bool        is_one    = search.problem.n_load_cases() == 1;
   rows.push_back(make_row(is_one ? objective : combined + " of " + objective, first.objective,
-                          last.objective, scene::unit_after_number(scene, objective), "objective"));
+                          last.objective, scene::unit_after_number(scene, objective),
+                          "objective, minimized: " + change_of(first.objective, last.objective)));
   const auto constraints = search.objective.constraint_values(first.reported, last.reported);
   for (const auto &constraint : constraints)
     rows.push_back(make_row(constraint.name, constraint.initial, constraint.value, constraint.unit,
@@ -131,8 +150,15 @@ void print_result_table(const Search<dim>                        &search,
                std::none_of(constraints.begin(), constraints.end(), [&](const auto &constraint) {
                  return constraint.name.rfind(names[i] + ' ', 0) == 0;
                }))
-        add(names[i], scene::unit_after_number(scene, response));
+        {
+          add(names[i], scene::unit_after_number(scene, response));
+          rows.back().remark = quantity_of(scene, response);
+        }
     }
+  for (unsigned int c = 0; c < search.results.errors().size(); ++c)
+    rows.push_back({(is_one ? "" : scene.load_cases[c].name + '.') + "discretization error", "",
+                    text_of(100. * search.results.errors()[c].energy.relative, 0.) + " %",
+                    "estimated, in the energy norm"});
   print(search.problem.context.out(Verbosity::quiet), rows);
   auto &out = search.problem.context.out();
   for (const auto &state : states)

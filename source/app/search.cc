@@ -37,7 +37,7 @@ std::vector<std::string> columns(const ShapeProblem<dim> &problem, const scene::
 {
   auto names = problem.value_names();
   for (const auto &[name, limit] : scene.optimization.constraints)
-    names.push_back(name + ' ' + limit);
+    names.push_back(optimization::constraint_text(name, limit));
   return names;
 }
 
@@ -173,7 +173,7 @@ void Search<dim>::report_first(const Iteration &iteration)
     out << "initial trust region: node displacements of at most half a cell edge"
         << (objective.is_predicted() ? "; contact pressures are predicted from derivatives" : "")
         << std::endl;
-  out << io::log_header() << std::endl;
+  out << io::log_header() << (initial.empty() ? "" : "  most violated") << std::endl;
 }
 
 /// Report an iteration of the search that continues the search @p before.

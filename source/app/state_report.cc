@@ -51,7 +51,8 @@ template <int dim>
 void print_certificate(RunContext &context, const state::ContactState<dim> &state)
 {
   const auto &errors = state.certificate;
-  context.out() << "solution check: largest relative error " << errors.worst();
+  context.out() << "solution check (not the error of the mesh): largest relative error "
+                << errors.worst();
   if (state.tolerance > qp::SolverParameters().relative_tolerance)
     context.out() << ", tolerance " << state.tolerance << " of the target";
   context.out() << std::endl;
@@ -136,9 +137,9 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
   auto        &out = context.out(), &details = context.out(Verbosity::debug);
   for (const auto &pair : state.pairs)
     {
-      out << "  contact " << pair.name << ": force " << vector_text(pair.force, forces) << force
-          << ", area " << pair.contact_area << units.after_number("length^2")
-          << ", largest nodal pressure " << pair.max_pressure
+      out << "  contact " << pair.name << ": force on " << pair.name.substr(0, pair.name.find(": "))
+          << ' ' << vector_text(pair.force, forces) << force << ", area " << pair.contact_area
+          << units.after_number("length^2") << ", largest nodal pressure " << pair.max_pressure
           << units.after_number("force/length^2") << " at " << vector_text(pair.peak, extent)
           << length << edge_remark(problem, state, pair) << ", " << pair.active_contacts << " of "
           << pair.rows << " nodes in contact\n";
@@ -150,9 +151,8 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
     out << "  support " << reaction.name << ": force " << vector_text(reaction.force, forces)
         << force << ", moment " << moment_text<dim>(reaction.moment, moments) << moment << " about "
         << vector_text(reaction.centre, extent) << length << '\n';
-  details << "sum of loads " << vector_text(state.load, forces) << force
-          << ", with reactions and obstacle forces " << vector_text(state.balance, forces) << force
-          << '\n';
+  details << "sum of loads, reactions and obstacle forces " << vector_text(state.balance, forces)
+          << force << '\n';
 }
 template <int dim>
 void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state)
@@ -165,6 +165,9 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
   auto       &out          = context.out(Verbosity::quiet);
   if (problem.n_load_cases() > 1)
     out << "load case " << problem.scene.load_cases[state.load_case].name << ":\n";
+  if (state.load.norm() > 0.)
+    out << "sum of loads " << vector_text(state.load, largest_forces(state).first)
+        << units.after_number("force") << '\n';
   if (!state.pairs.empty())
     out << "contact force " << vector_text(state.contact_force, largest_forces(state).first)
         << units.after_number("force") << ", contact area " << state.contact_area

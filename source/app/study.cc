@@ -43,7 +43,11 @@ void report(const ShapeProblem<dim>            &problem,
         state.linear_f_mults = problem.solver->linear_f_mults(state);
       print_state(problem, state);
       for (const auto &[name, value] : results.response_values(state))
-        out << name << ' ' << value << scene::unit_after_number(problem.scene, name) << std::endl;
+        {
+          const auto quantity = scene::response_called(problem.scene, name)->quantity;
+          out << "response " << name << (quantity == name ? "" : " (" + quantity + ")") << ": "
+              << value << scene::unit_after_number(problem.scene, name) << std::endl;
+        }
     }
   results.warn(states);
 }

@@ -128,8 +128,8 @@ public:
       {
         std::ostringstream text;
         text << std::setprecision(3) << "the design moves an edge off the face "
-             << names[faces.FindIndex(face) - 1] << " by " << farthest
-             << "; shape this face as well, or hold the edge";
+             << names[faces.FindIndex(face) - 1] << " by " << farthest << "; shape "
+             << names[faces.FindIndex(face) - 1] << " as well, or hold this edge";
         throw InputError(text.str());
       }
     return true;

@@ -38,4 +38,9 @@ Limit read_limit(const std::string &text)
     throw std::invalid_argument("no limit");
   return limit;
 }
+
+std::string constraint_text(const std::string &name, const std::string &limit)
+{
+  return name + (limit.find_first_of("<>=") == std::string::npos ? " = " : " ") + limit;
+}
 } // namespace snug::optimization

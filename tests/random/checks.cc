@@ -96,7 +96,8 @@ answer_of(const scene::Scene &scene, const WholeBodies<dim> &whole, unsigned lon
 bool names_escape(const std::string &message, const scene::Scene &scene, const Verdict &verdict)
 {
   for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-    if (message.find("no equilibrium: body " + scene.bodies[b].name + " is not held against its load") == 0)
+    if (message.find("no equilibrium: body " + scene.bodies[b].name +
+                     " is not held against its load") == 0)
       return verdict.may_move[b];
   return false;
 }

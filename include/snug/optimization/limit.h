@@ -22,6 +22,9 @@ struct Limit
 /// Return the limit of "<= 120", "= initial" or ">= 0.9 initial". A text without a sign is a
 /// required value. @throws std::logic_error, such as std::invalid_argument, for other texts.
 Limit read_limit(const std::string &text);
+
+/// Return the name of a constraint of @p name with a limit, such as "volume = initial".
+std::string constraint_text(const std::string &name, const std::string &limit);
 } // namespace snug::optimization
 
 #endif
