@@ -33,10 +33,11 @@ void OutputParameters::declare(Entries &entries)
                    "contact pairs, supports and loads of the first load case"}}),
     "The formats in which the bodies of the last design are written, with the positions of the "
     "nodes without a load. An empty list means that no mesh is written.");
-  entries.add(
-    "Profile deviation", profile_deviation, at_least(0.),
-    "The maximum distance of the B-splines in profile.step from the shaped faces, relative to the "
-    "size of each face, the diagonal of its box. A value of 0 means that the file is not written.");
+  entries.add("Profile deviation", profile_deviation, at_least(0.),
+              "The maximum distance of the B-splines in profile.step and BODY.step from the shaped "
+              "faces, relative to the "
+              "size of each face, the diagonal of its box. A value of 0 means that the files are "
+              "not written.");
   entries.add(
     "Export QP", export_qp,
     "Whether to write the quadratic program of the first state and its solution into qp/, "
