@@ -141,6 +141,15 @@ std::vector<Warning> load_warnings(const mesh::BodyMesh<dim> &mesh, const state:
   return result;
 }
 
+/// Return the range of the gaps of a pair, with 0 for a minimum that is round-off.
+std::string without_round_off(const contact::PairedGaps &gaps)
+{
+  std::ostringstream text;
+  text << (std::abs(gaps.least) <= 1e-12 * gaps.largest ? 0. : gaps.least) << " to "
+       << gaps.largest;
+  return text.str();
+}
+
 template <int dim>
 void print_pairs_at(const ShapeProblem<dim> &problem,
                     const unsigned int       c,
@@ -170,7 +179,7 @@ void print_pairs_at(const ShapeProblem<dim> &problem,
                 << counted(matching.n_nodes, "slave node") << " on a master node)";
         }
       out << ", " << counted(rows[p], "contact condition") << ", initial gap "
-          << contact.paired_gaps()[p].least << " to " << contact.paired_gaps()[p].largest << ", "
+          << without_round_off(contact.paired_gaps()[p]) << ", "
           << std::round(100. * std::min(1., shares[p]))
           << " % of the slave side faces the other side"
           << "\n  " << pairs[p].slave_name << ": ";

@@ -35,9 +35,10 @@ Row make_row(const std::string &name,
              const double       first,
              const double       last,
              const std::string &unit,
-             const std::string &remark = "")
+             const std::string &remark    = "",
+             const double       of_others = 0.)
 {
-  const double scale = std::max(std::abs(first), std::abs(last));
+  const double scale = std::max({std::abs(first), std::abs(last), of_others});
   return {name, text_of(first, scale), text_of(last, scale) + unit, remark};
 }
 
@@ -128,15 +129,19 @@ void print_result_table(const Search<dim>                        &search,
   for (const auto &constraint : constraints)
     rows.push_back(make_row(constraint.name, constraint.initial, constraint.value, constraint.unit,
                             remark_of<dim>(constraint)));
-  const auto  names = search.problem.value_names();
-  const Units units(scene.units);
+  const auto        names = search.problem.value_names();
+  const Units       units(scene.units);
+  const std::size_t n_values = names.size() / search.problem.n_load_cases();
   for (std::size_t i = 0; i < names.size(); ++i)
     {
       const auto start  = is_one ? 0 : names[i].find('.') + 1;
       const auto prefix = names[i].substr(0, start), response = names[i].substr(start);
       const auto quantity = maxima.find(response);
       const auto add      = [&](const std::string &name, const std::string &unit) {
-        rows.push_back(make_row(name, first.reported[i], last.reported[i], unit));
+        double largest = 0.; // of the response in all load cases
+        for (std::size_t k = i % n_values; k < names.size(); k += n_values)
+          largest = std::max({largest, std::abs(first.reported[k]), std::abs(last.reported[k])});
+        rows.push_back(make_row(name, first.reported[i], last.reported[i], unit, "", largest));
       };
       const auto &state = states[i * states.size() / names.size()];
       if (quantity != maxima.end() && first.reported[i] == 0. && last.reported[i] == 0.)

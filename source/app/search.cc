@@ -119,8 +119,8 @@ std::vector<Warning> search_warnings(const scene::Scene                         
     if (initial[i].second < 0. &&
         optimization::read_limit(scene.optimization.constraints[i].second).of_initial)
       result.push_back({"negative limit",
-                        "the constraint '" + initial[i].first + "' refers to the negative value " +
-                          to_text(initial[i].second) + ": above it the amount is smaller",
+                        "the constraint '" + initial[i].first +
+                          "' refers to a negative value: above it the amount is smaller",
                         initial[i].second, 0.});
   const auto quantity_of = [&](const std::string &name) {
     return scene::response_called(scene, name)->quantity;

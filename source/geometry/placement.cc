@@ -75,7 +75,7 @@ public:
   BoundaryShape boundary_shape(unsigned int boundary) const override
   {
     const auto shape = this->body->boundary_shape(boundary);
-    return {(warp.empty() ? "" : "warped ") + shape.name, scale * shape.facet_height};
+    return {shape.name + (warp.empty() ? "" : " moved by 'Warp'"), scale * shape.facet_height};
   }
 
   // The frame is placed like the body, because interiors of shapes use lengths in the frame.

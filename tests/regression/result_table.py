@@ -89,10 +89,10 @@ def check_table(runner):
     push = next(item for item in found["constraints"] if item["name"].startswith("push"))
     runner.require("value of history", close(lines[-1]["push"], push["value"], 1e-12), str(lines[-1]))
     runner.require("limit of a positive value", push["initial"] > 0. and
-                   "refers to the negative value" not in log, log)
+                   "refers to a negative value" not in log, log)
     log, _, _ = runner.run("negative", "two-blocks-2d.prm", NEGATIVE)
     runner.require("limit of a negative value",
-                   "'potential energy >= 1.5 initial' refers to the negative value -" in log, log)
+                   "'potential energy >= 1.5 initial' refers to a negative value -" in log, log)
     return output, summary
 
 
