@@ -122,9 +122,11 @@ void print_result_table(const Search<dim>                        &search,
   std::vector<Row>  rows      = {{"", "first design", "last design", ""}};
   const std::string combined  = to_text(scene.optimization.combine);
   const bool        is_one    = search.problem.n_load_cases() == 1;
+  const std::string quantity  = quantity_of(scene, objective);
   rows.push_back(make_row(is_one ? objective : combined + " of " + objective, first.objective,
                           last.objective, scene::unit_after_number(scene, objective),
-                          "objective, minimized: " + change_of(first.objective, last.objective)));
+                          "objective" + (quantity.empty() ? "" : " (" + quantity + ')') +
+                            ", minimized: " + change_of(first.objective, last.objective)));
   const auto constraints = search.objective.constraint_values(first.reported, last.reported);
   for (const auto &constraint : constraints)
     rows.push_back(make_row(constraint.name, constraint.initial, constraint.value, constraint.unit,
@@ -136,19 +138,19 @@ void print_result_table(const Search<dim>                        &search,
     {
       const auto start  = is_one ? 0 : names[i].find('.') + 1;
       const auto prefix = names[i].substr(0, start), response = names[i].substr(start);
-      const auto quantity = maxima.find(response);
-      const auto add      = [&](const std::string &name, const std::string &unit) {
+      const auto maximum = maxima.find(response);
+      const auto add     = [&](const std::string &name, const std::string &unit) {
         double largest = 0.; // of the response in all load cases
         for (std::size_t k = i % n_values; k < names.size(); k += n_values)
           largest = std::max({largest, std::abs(first.reported[k]), std::abs(last.reported[k])});
         rows.push_back(make_row(name, first.reported[i], last.reported[i], unit, "", largest));
       };
       const auto &state = states[i * states.size() / names.size()];
-      if (quantity != maxima.end() && first.reported[i] == 0. && last.reported[i] == 0.)
+      if (maximum != maxima.end() && first.reported[i] == 0. && last.reported[i] == 0.)
         continue; // a model without contact
-      if (quantity != maxima.end())
+      if (maximum != maxima.end())
         {
-          add(prefix + quantity->second.first, units.after_number(quantity->second.second));
+          add(prefix + maximum->second.first, units.after_number(maximum->second.second));
           rows.back().remark = place_of(search.problem, state, response);
         }
       else if ((!is_one || response != objective) &&
