@@ -34,7 +34,8 @@ OptimizationResult Search<dim>::widen_contact(const Design             &start,
   if (!objective.limits_geometry() || parameters.starts > 1 ||
       result.evaluations + evaluations_to_widen >= parameters.maximum_evaluations)
     {
-      log(now);
+      if (n == first_contacts)
+        log(now);
       return result;
     }
   log(now + ": searching with the potential energy, which may widen the contact");
