@@ -84,7 +84,8 @@ std::string place_of(const ShapeProblem<dim>        &problem,
     return "at " + vector_text(state.displacement_peak.position, extent);
   for (const auto &pair : state.pairs)
     if (pair.max_pressure == state.max_pressure)
-      return "at " + vector_text(pair.peak, extent) + edge_remark(problem, state, pair);
+      return "at " + vector_text(pair.peak, extent) +
+             edge_remark(accuracy::sharp_edges(*problem.solver, state), state, pair);
   return "";
 }
 

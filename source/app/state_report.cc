@@ -1,4 +1,3 @@
-#include <snug/accuracy/sharp_edges.h>
 #include <snug/app/state_report.h>
 
 #include <algorithm>
@@ -111,12 +110,12 @@ void print_stress(const ShapeProblem<dim> &problem, const state::ContactState<di
 } // namespace
 
 template <int dim>
-std::string edge_remark(const ShapeProblem<dim>        &problem,
-                        const state::ContactState<dim> &state,
-                        const state::PairState<dim>    &pair)
+std::string edge_remark(const std::vector<accuracy::SharpEdge> &edges,
+                        const state::ContactState<dim>         &state,
+                        const state::PairState<dim>            &pair)
 {
   bool is_at_edge = false;
-  for (const auto &edge : accuracy::sharp_edges(*problem.solver, state))
+  for (const auto &edge : edges)
     for (const unsigned int row : edge.rows)
       is_at_edge = is_at_edge || state.contact[row].pressure == pair.max_pressure;
   return is_at_edge ? ", at a sharp edge, where the exact pressure has no limit" : "";
@@ -128,6 +127,7 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
   auto             &context = problem.context;
   const Units       units(problem.scene.units);
   const double      extent = state.displacement_peak.extent;
+  const auto        edges  = accuracy::sharp_edges(*problem.solver, state);
   const std::string length = units.after_number("length"), force = units.after_number("force"),
                     moment = units.after_number("force length");
   const auto   largest     = largest_forces(state);
@@ -141,7 +141,7 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
           << ' ' << vector_text(pair.force, forces) << force << ", area " << pair.contact_area
           << units.after_number("length^2") << ", largest nodal pressure " << pair.max_pressure
           << units.after_number("force/length^2") << " at " << vector_text(pair.peak, extent)
-          << length << edge_remark(problem, state, pair) << ", " << pair.active_contacts << " of "
+          << length << edge_remark(edges, state, pair) << ", " << pair.active_contacts << " of "
           << pair.rows << " nodes in contact\n";
       details << "    moment " << moment_text<dim>(pair.moment, moments) << moment << " about "
               << vector_text(pair.centre, extent) << length << ", face size at the peak "
@@ -200,7 +200,8 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
 #define SNUG_INSTANTIATE(dim)                                                                     \
   template void        print_state(const ShapeProblem<dim> &, const state::ContactState<dim> &);  \
   template void        print_forces(const ShapeProblem<dim> &, const state::ContactState<dim> &); \
-  template std::string edge_remark(const ShapeProblem<dim> &, const state::ContactState<dim> &,   \
+  template std::string edge_remark(const std::vector<accuracy::SharpEdge> &,                      \
+                                   const state::ContactState<dim> &,                              \
                                    const state::PairState<dim> &);                                \
   template std::string vector_text(const dealii::Tensor<1, dim> &, double);
 SNUG_INSTANTIATE(2)

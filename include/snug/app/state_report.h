@@ -1,6 +1,7 @@
 #ifndef snug_app_state_report_h
 #define snug_app_state_report_h
 
+#include <snug/accuracy/sharp_edges.h>
 #include <snug/app/shape_problem.h>
 
 namespace snug::app {
@@ -18,13 +19,12 @@ void print_state(const ShapeProblem<dim> &problem, const state::ContactState<dim
 template <int dim>
 void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<dim> &state);
 
-/// Return ", at a sharp edge, where the exact pressure has no limit" if the largest pressure of @p
-/// pair of
-/// @p state is there, else an empty text. Collective.
+/// Return ", at a sharp edge, where the exact pressure has no limit" if the largest pressure of
+/// @p pair of @p state is at one of the @p edges of accuracy::sharp_edges(), else an empty text.
 template <int dim>
-std::string edge_remark(const ShapeProblem<dim>        &problem,
-                        const state::ContactState<dim> &state,
-                        const state::PairState<dim>    &pair);
+std::string edge_remark(const std::vector<accuracy::SharpEdge> &edges,
+                        const state::ContactState<dim>         &state,
+                        const state::PairState<dim>            &pair);
 
 /// Return a vector as "(1 0 -2)", where components below 1e-6 of @p scale are round-off.
 template <int n>
