@@ -114,11 +114,11 @@ std::string edge_remark(const std::vector<accuracy::SharpEdge> &edges,
                         const state::ContactState<dim>         &state,
                         const state::PairState<dim>            &pair)
 {
-  bool is_at_edge = false;
   for (const auto &edge : edges)
     for (const unsigned int row : edge.rows)
-      is_at_edge = is_at_edge || state.contact[row].pressure == pair.max_pressure;
-  return is_at_edge ? ", at a sharp edge, where the exact pressure has no limit" : "";
+      if (pair.max_pressure > 0. && state.contact[row].pressure == pair.max_pressure)
+        return ", at a sharp edge, where the exact pressure has no limit";
+  return "";
 }
 
 template <int dim>
