@@ -103,7 +103,7 @@ void print_stress(const ShapeProblem<dim> &problem, const state::ContactState<di
       << " at " << vector_text(peak.place, state.displacement_peak.extent)
       << units.after_number("length") << " in body " << peak.body << '\n';
   for (const auto &of_body : state.stress_peaks)
-    if (of_body.yield.yield_stress > 0.)
+    if (of_body.yield.utilization > 0.)
       print_yield(out, units, of_body.body, of_body.yield, is_line_contact);
 }
 
