@@ -249,28 +249,28 @@ void write_step(const std::string              &path,
   const std::string           known = step_units().at(is_step_unit(unit) ? unit : "mm");
   // OpenCASCADE would convert numbers from the one unit to the other.
   const StaticValue of_numbers("xstep.cascade.unit", known), of_file("write.step.unit", known);
-  try
-    {
-      write(path, products, faces);
-    }
-  catch (const Standard_Failure &failure)
-    {
-      throw std::runtime_error("OpenCASCADE cannot write " + path + ": " +
-                               failure.GetMessageString());
-    }
+  write(path, products, faces);
 }
 
 void write_step(const std::string             &path,
                 const std::string             &unit,
                 const std::vector<SplineFace> &faces)
 {
-  std::vector<NamedShape>  made;
-  std::vector<std::string> names;
-  for (const auto &face : faces)
+  try
     {
-      made.emplace_back(face_of(face), face.name);
-      names.push_back(face.name);
+      std::vector<NamedShape>  made;
+      std::vector<std::string> names;
+      for (const auto &face : faces)
+        {
+          made.emplace_back(face_of(face), face.name);
+          names.push_back(face.name);
+        }
+      write_step(path, unit, made, names);
     }
-  write_step(path, unit, made, names);
+  catch (const Standard_Failure &failure)
+    {
+      throw std::runtime_error("OpenCASCADE cannot write " + path + ": " +
+                               failure.GetMessageString());
+    }
 }
 } // namespace snug::cad

@@ -14,7 +14,7 @@ using NamedShape = std::pair<TopoDS_Shape, std::string>;
 Handle(Geom_BSplineSurface) surface_of(const SplineFace &face);
 
 /// Write products whose faces have the names @p faces, in the order of TopExp::MapShapes(). See
-/// write_step() for faces.
+/// write_step() for faces. @throws Standard_Failure, std::runtime_error.
 void write_step(const std::string              &path,
                 const std::string              &unit,
                 const std::vector<NamedShape>  &products,
