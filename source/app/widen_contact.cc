@@ -44,18 +44,18 @@ OptimizationResult Search<dim>::widen_contact(const Design             &start,
                                     result.evaluations + evaluations_to_widen);
   auto better    = result;
   auto last      = wide;
-  if (wide.end == optimization::StopReason::interrupted)
-    {
-      better.end         = wide.end;
-      better.stop_reason = wide.stop_reason;
-      better.success     = false;
-    }
-  else if (wide.evaluation.active_contacts > n)
+  if (wide.end != optimization::StopReason::interrupted && wide.evaluation.active_contacts > n)
     {
       log("searching again with the " + parameters.objective);
       last = run_with_pairing(objective, wide.x, wide, tolerance);
       if (optimization::is_better(last, result, parameters))
         better = last;
+    }
+  if (last.end == optimization::StopReason::interrupted)
+    {
+      better.end         = last.end;
+      better.stop_reason = last.stop_reason;
+      better.success     = false;
     }
   if (better.x == result.x)
     log("the design of the first search is the best: " + parameters.objective + ' ' +
