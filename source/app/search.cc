@@ -182,7 +182,7 @@ void Search<dim>::report(const Iteration &iteration, const OptimizationResult &b
 {
   if (iteration.number == 0)
     first_contacts = iteration.evaluation.active_contacts;
-  if (before.iterations + iteration.number == 0)
+  if (before.evaluations + iteration.number == 0)
     report_first(iteration);
   io::HistoryLine line;
   line.iteration            = before.iterations + iteration.number;
