@@ -34,9 +34,9 @@ struct SearchRecord
 
 /**
  * This class optimizes a shape problem on its mesh, with log, history, journal and pictures. If a
- * search on pressures has left the nodes in contact as they were, searches with the potential
- * energy and again with the pressure follow. If the design has moved slave nodes along the master,
- * a new contact search and a further optimization follow.
+ * search on pressures ends with nodes that are not in contact, a search with the potential energy
+ * may follow, see widen_contact(). If the design has moved slave nodes along the master, a new
+ * contact search and a further optimization follow.
  */
 template <int dim>
 class Search

@@ -127,7 +127,7 @@ struct Summary
   {
     std::string               name;
     std::vector<unsigned int> spans;          ///< of B-splines, per direction
-    std::string               kind      = {}; ///< "curve" that is swept, or "surface"
+    std::string               kind      = {}; ///< "curve", "revolved curve" or "surface"
     double                    deviation = none, asked = none; ///< maximum [length]
   };
 
