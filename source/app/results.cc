@@ -31,7 +31,10 @@ std::string solid_file(const scene::Scene &scene, const scene::Body &body)
 {
   const std::string path = scene.output_directory + '/' + body.name + ".step";
   std::error_code   unused;
-  const bool        is_input = std::filesystem::equivalent(path, body.mesh.file, unused);
+  const bool        is_input =
+    std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const scene::Body &other) {
+      return std::filesystem::equivalent(path, other.mesh.file, unused);
+    });
   return is_input || !body.mesh.imported || body.mesh.imported->brep.empty() ? "" : path;
 }
 

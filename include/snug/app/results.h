@@ -14,7 +14,7 @@ class DesignedFace;
 std::vector<std::string> output_directories(const scene::Scene &scene);
 
 /// Return the path of the STEP file of a body, or nothing for bodies that are not from a CAD file,
-/// or whose CAD file has this path.
+/// or if the file of a body has this path.
 std::string solid_file(const scene::Scene &scene, const scene::Body &body);
 
 /// Remove the results of earlier runs from the output directories of a scene. Collective.
