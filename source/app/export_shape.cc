@@ -112,7 +112,7 @@ void Results<dim>::export_profile(const std::vector<DesignedFace<dim>> &designed
         failures.push_back("profile.step lacks the face " + one.name + ": " + error.what());
       }
   if (!faces.empty())
-    cad::write_step(path("profile.step"), scene.units.empty() ? "mm" : scene.units.front(), faces);
+    cad::write_step(path("profile.step"), Units(scene.units).name("length"), faces);
   report_profile(failures);
   export_solids(designed);
 }

@@ -18,8 +18,7 @@ io::SplineSurface<3> fitted(const cad::MovedSolid         &solid,
                             const unsigned int             f,
                             const cad::MovedSolid::Domain &domain,
                             const DesignedFace<3>         &face,
-                            const double                   asked,
-                            const unsigned int             most_points)
+                            const double                   asked)
 {
   const shape::FacePlaces<3> places(face.shaped_face(), face.shaped_face().positions());
   io::CoordinatePoints<3>    points;
@@ -68,7 +67,7 @@ void Results<3>::export_solids(const std::vector<DesignedFace<3>> &designed)
                   {
                     const double asked   = scene.output.profile_deviation * face.size();
                     const auto   domain  = solid.domain(f);
-                    const auto   surface = fitted(solid, f, domain, face, asked, most_points);
+                    const auto   surface = fitted(solid, f, domain, face, asked);
                     moved[f]  = spline_face<3>(surface, domain.upper - domain.lower, domain.lower);
                     deviation = std::max(deviation, surface.deviation);
                     tolerance = std::max({tolerance, asked, surface.deviation});
@@ -78,8 +77,8 @@ void Results<3>::export_solids(const std::vector<DesignedFace<3>> &designed)
             continue;
           if (!body.mesh.warp.empty())
             throw InputError("it has a 'Warp'");
-          const double volume = solid.write(file, scene.units.empty() ? "mm" : scene.units.front(),
-                                            body.name, names, moved, tolerance);
+          const double volume = solid.write(file, Units(scene.units).name("length"), body.name,
+                                            names, moved, tolerance);
           std::ostringstream line;
           line << body.name << ".step: solid of " << names.size() << " faces, " << moved.size()
                << " of them moved, volume " << volume << Units(scene.units).after_number("length^3")
