@@ -11,7 +11,8 @@
 
 namespace snug::state {
 namespace {
-/// Relative difference of stresses below which their difference may be the error of the solver.
+/// Relative difference of stresses, or of displacements, below which their difference may be the
+/// error of the solver.
 const double tie = 1e-6;
 
 /// Return the place of @p x along a direction that no symmetry of a model is likely to reverse.
@@ -139,23 +140,26 @@ std::vector<StressPeak<dim>> stress_peaks(const StateSolver<dim>  &solver,
 template <int dim>
 DisplacementPeak<dim> displacement_peak(const ContactState<dim> &state, MPI_Comm communicator)
 {
-  DisplacementPeak<dim> result;
-  double                extent = 0.;
-  result.size                  = -1.; // of a rank without nodes
+  double extent = 0., largest = 0.;
   for (unsigned int node = 0; node < state.displacement.size(); ++node)
     {
-      extent = std::max(extent, state.positions[node].norm());
-      if (const double size = state.displacement[node].norm(); size > result.size)
-        result = {size, 0., state.displacement[node], state.positions[node]};
+      extent  = std::max(extent, state.positions[node].norm());
+      largest = std::max(largest, state.displacement[node].norm());
     }
-  result.extent = extent;
+  extent  = dealii::Utilities::MPI::max(extent, communicator);
+  largest = dealii::Utilities::MPI::max(largest, communicator);
+  DisplacementPeak<dim> result;
+  result.size     = -1.; // of a rank without such a node
+  const auto take = [&](const DisplacementPeak<dim> &other) {
+    if (other.size > result.size ||
+        (other.size == result.size && order<dim>(other.position) < order<dim>(result.position)))
+      result = other;
+  };
+  for (unsigned int node = 0; node < state.displacement.size(); ++node)
+    if (state.displacement[node].norm() >= (1. - tie) * largest)
+      take({largest, extent, state.displacement[node], state.positions[node]});
   for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, result))
-    {
-      extent = std::max(extent, other.extent);
-      if (other.size > result.size)
-        result = other;
-    }
-  result.extent = extent;
+    take(other);
   return result;
 }
 

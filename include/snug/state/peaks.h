@@ -14,7 +14,8 @@ template <int dim>
 std::vector<StressPeak<dim>> stress_peaks(const StateSolver<dim>  &solver,
                                           const ContactState<dim> &state);
 
-/// Return the displacement of the node that moves farthest. Collective.
+/// Return the displacement of the node that moves farthest. Among nodes whose displacements differ
+/// by round-off alone, it is the first one along the direction of stress_peaks(). Collective.
 template <int dim>
 DisplacementPeak<dim> displacement_peak(const ContactState<dim> &state, MPI_Comm communicator);
 } // namespace snug::state
