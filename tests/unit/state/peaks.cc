@@ -1,3 +1,5 @@
+#include <snug/state/peaks.h>
+
 #include <gtest/gtest.h>
 #include <unit/state/test_scene.h>
 
@@ -118,5 +120,22 @@ TEST(StressPeaks, DoNotDependOnRanksAndUnits)
     }
   EXPECT_LT((of_one.displacement_peak.displacement - state.displacement_peak.displacement).norm(),
             1e-7 * state.displacement_peak.size);
+}
+
+TEST(DisplacementPeak, IsAtTheFirstOfEqualNodesOnAllRanks)
+{
+  const unsigned int     rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  state::ContactState<2> state;
+  state.positions.resize(2);
+  state.displacement.resize(2);
+  for (unsigned int node = 0; node < 2; ++node)
+    {
+      state.positions[node][0]    = rank + 10. * node;
+      state.displacement[node][1] = 1. + 1e-9 * (rank + node); // errors of a solver
+    }
+  const auto peak = state::displacement_peak(state, MPI_COMM_WORLD);
+  EXPECT_EQ(peak.position[0], 0.);
+  EXPECT_NEAR(peak.size, 1., 1e-7);
+  EXPECT_EQ(peak.extent, 9. + dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
 }
 } // namespace
