@@ -113,10 +113,13 @@ public:
     projection->Init(surface, 0.1 * tolerance);
     const gp_Pnt2d before = curve->Value(first);
     projection->Perform(in_space, first, last, curve);
-    if (!curve.IsNull() && surface->IsUPeriodic())
+    if (!curve.IsNull())
       {
-        const double turns = (before.X() - curve->Value(first).X()) / surface->UPeriod();
-        curve->Translate(gp_Vec2d(surface->UPeriod() * std::round(turns), 0.));
+        const gp_Vec2d off(curve->Value(first), before);
+        const double   u = surface->IsUPeriodic() ? surface->UPeriod() : HUGE_VAL,
+                     v   = surface->IsVPeriodic() ? surface->VPeriod() : HUGE_VAL;
+        curve->Translate(
+          gp_Vec2d(off.X() - std::remainder(off.X(), u), off.Y() - std::remainder(off.Y(), v)));
       }
     for (unsigned int k = 0; k <= 20 && !curve.IsNull(); ++k)
       {
