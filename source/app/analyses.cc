@@ -7,9 +7,10 @@ Analyses<dim>::Analyses(ShapeProblem<dim> &problem)
 {}
 
 template <int dim>
-Analysis<dim> &Analyses<dim>::solve(const Design &design)
+Analysis<dim> &Analyses<dim>::solve(const Design &design, const bool is_cold)
 {
-  current = Analysis<dim>{design, problem.solve(design, starts.at(design))};
+  current = Analysis<dim>{design, problem.solve(design, is_cold ? std::vector<qp::WarmStart>()
+                                                                : starts.at(design))};
   std::vector<qp::MultiVector> forces;
   for (const auto &state : current->states)
     forces.push_back(state.dual.lambda);

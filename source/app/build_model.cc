@@ -25,25 +25,16 @@ contact::Pair find_pair(const scene::Scene                      &scene,
   return pair;
 }
 
-/// Return the relative tolerance of states. An error e of the state changes the potential energy,
-/// which the state minimizes, by e^2, and other responses by e. Errors of such responses above the
-/// tolerance of the optimizer would keep the optimizer from meeting its tolerance.
+/// Return the relative tolerance of states.
 template <int dim>
 double state_tolerance(const scene::Scene &scene)
 {
-  const double usual = qp::SolverParameters().relative_tolerance, least = 1e-10;
   if (scene.state_tolerance || scene.task != scene::Task::optimize)
-    return scene.state_tolerance.value_or(usual);
-  const auto feels_errors = [&scene](const std::string &name) {
-    const auto parameters =
-      scene::response_called(scene, scene::constraint_name(scene, name).response);
-    return sensitivity::needs_solve(*response::make_response<dim>(*parameters),
-                                    scene::has_friction(scene));
-  };
-  bool sharp = feels_errors(scene.optimization.objective);
+    return scene.state_tolerance.value_or(qp::SolverParameters().relative_tolerance);
+  std::vector<std::string> responses = {scene.optimization.objective};
   for (const auto &constraint : scene.optimization.constraints)
-    sharp = sharp || feels_errors(constraint.first);
-  return sharp ? std::clamp(scene.optimization.objective_tolerance, least, usual) : usual;
+    responses.push_back(scene::constraint_name(scene, constraint.first).response);
+  return search_tolerance<dim>(scene, responses);
 }
 
 /// Return "body.boundary" of the faces that are held along their normals.
@@ -69,6 +60,18 @@ std::vector<std::string> held_along_normals(const scene::Scene &scene)
   return faces;
 }
 } // namespace
+
+template <int dim>
+double search_tolerance(const scene::Scene &scene, const std::vector<std::string> &responses)
+{
+  const double usual = qp::SolverParameters().relative_tolerance, least = 1e-10;
+  const bool   sharp = std::any_of(responses.begin(), responses.end(), [&](const auto &name) {
+    return sensitivity::needs_solve(*response::make_response<dim>(
+                                      *scene::response_called(scene, name)),
+                                      scene::has_friction(scene));
+  });
+  return sharp ? std::clamp(scene.optimization.objective_tolerance, least, usual) : usual;
+}
 
 std::vector<geometry::BodyMeshParameters> mesh_parameters(const scene::Scene &scene)
 {
@@ -186,14 +189,15 @@ std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &context, const scene
   return build_mesh<dim>(scene, context.communicator());
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                   \
-  template std::unique_ptr<mesh::Forest<dim>>   build_forest(const scene::Scene &, MPI_Comm);   \
-  template std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &,                \
-                                                           const mesh::Forest<dim> &, bool);    \
-  template std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &, MPI_Comm);     \
-  template std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &, const scene::Scene &); \
-  template std::vector<contact::Pair>           build_pairs(const scene::Scene &,               \
-                                                            const mesh::BodyMesh<dim> &);       \
+#define SNUG_INSTANTIATE(dim)                                                                    \
+  template double search_tolerance<dim>(const scene::Scene &, const std::vector<std::string> &); \
+  template std::unique_ptr<mesh::Forest<dim>>   build_forest(const scene::Scene &, MPI_Comm);    \
+  template std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &,                 \
+                                                           const mesh::Forest<dim> &, bool);     \
+  template std::unique_ptr<mesh::BodyMesh<dim>> build_mesh(const scene::Scene &, MPI_Comm);      \
+  template std::unique_ptr<mesh::BodyMesh<dim>> timed_mesh(RunContext &, const scene::Scene &);  \
+  template std::vector<contact::Pair>           build_pairs(const scene::Scene &,                \
+                                                            const mesh::BodyMesh<dim> &);        \
   template state::Model<dim> build_model(const scene::Scene &, const mesh::BodyMesh<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -35,10 +35,11 @@ public:
     const bool needs_no_file = options.print_parameters || options.help || options.version;
     if (options.file.empty() && !needs_no_file)
       throw InputError("no parameter file" + hint());
-    if (options.advise + options.estimate + options.validate + options.restart + options.translate >
+    if (options.advise + options.estimate + options.validate + options.restart + options.translate +
+          options.serve >
         1)
-      throw InputError("only one of --advise, --estimate, --validate, --restart and --translate is "
-                       "allowed" +
+      throw InputError("only one of --advise, --estimate, --serve, --validate, --restart and "
+                       "--translate is allowed" +
                        hint());
     return options;
   }
@@ -106,6 +107,8 @@ private:
       return &options.estimate;
     if (name == "--translate")
       return &options.translate;
+    if (name == "--serve")
+      return &options.serve;
     if (name == "--print-parameters")
       return &options.print_parameters;
     if (name == "--help" || name == "-h")
@@ -142,7 +145,7 @@ std::string usage()
   return R"(usage:
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
                   [--petsc "-NAME VALUE ..."]... [--leave-out "KEYWORD, ..."]
-    snug --advise FILE.prm | --estimate [--ranks N] FILE.prm
+    snug --advise FILE.prm | --estimate [--ranks N] FILE.prm | --serve FILE.prm
     snug --translate FILE.inp | FILE.step
     snug --validate FILE.prm | --print-parameters | --help | --version
 
@@ -168,6 +171,9 @@ also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
                         (symmetry, rigid bodies, needless cells) and defects (locking)
     --estimate          make the meshes and print the memory and the time of a run;
                         --ranks N for runs on N MPI ranks
+    --serve             answer requests, JSON lines of standard input, on standard output:
+                        values and gradients of designs for scripts and optimizers
+                        (doc/serve.md)
     --translate         print the parameter file of a deck of Abaqus or CalculiX, and
                         the keywords that are not translated, with their lines; or of
                         the solids of a CAD file, to which loads are to be added

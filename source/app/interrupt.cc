@@ -20,6 +20,11 @@ void catch_interrupts()
   std::signal(SIGINT, note_signal);
 }
 
+bool is_interrupted()
+{
+  return signal_received != 0;
+}
+
 void check_interrupts(MPI_Comm communicator)
 {
   int received = signal_received;

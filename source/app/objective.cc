@@ -162,23 +162,42 @@ const sensitivity::Gradients<dim> &Objective<dim>::gradients(const Design &desig
   const auto &found = analyses.gradients(design, measured, parameters);
   if (is_known)
     return combined;
-  combined         = {};
-  combined.f_mults = found.f_mults;
-  combined.seconds = found.seconds;
-  std::vector<sensitivity::Gradient<dim>> terms;
+  combined             = {};
+  combined.f_mults     = found.f_mults;
+  combined.seconds     = found.seconds;
+  combined.of_response = combined_gradients(analyses.at(design).states, found.of_response);
+  differentiated       = design;
+  return combined;
+}
+
+template <int dim>
+std::vector<sensitivity::Gradient<dim>>
+Objective<dim>::combined_gradients(const States                                  &states,
+                                   const std::vector<sensitivity::Gradient<dim>> &found) const
+{
+  std::vector<sensitivity::Gradient<dim>> result, terms;
   for (const Quantity &quantity : quantities)
     {
-      const auto factors = quantity.combined(values(quantity, analyses.at(design).states)).factors;
-      combined.of_response.push_back(
-        sensitivity::weighted_sum(factors, found.of_response, quantity.first));
+      const auto factors = quantity.combined(values(quantity, states)).factors;
+      result.push_back(sensitivity::weighted_sum(factors, found, quantity.first));
       for (unsigned int k = 0; k < quantity.combination.n_maxima(); ++k)
         for (unsigned int c = 0; c < factors.size(); ++c)
-          terms.push_back(sensitivity::weighted_sum({quantity.term_factors(k)[c]},
-                                                    found.of_response, quantity.first + c));
+          terms.push_back(
+            sensitivity::weighted_sum({quantity.term_factors(k)[c]}, found, quantity.first + c));
     }
-  combined.of_response.insert(combined.of_response.end(), terms.begin(), terms.end());
-  differentiated = design;
-  return combined;
+  result.insert(result.end(), terms.begin(), terms.end());
+  return result;
+}
+
+template <int dim>
+std::vector<std::pair<std::string, unsigned int>> Objective<dim>::measured_names() const
+{
+  std::vector<std::pair<std::string, unsigned int>> result;
+  for (const Quantity &quantity : quantities)
+    for (const unsigned int c : quantity.load_cases)
+      result.emplace_back(quantity.of.empty() ? problem.scene.optimization.objective : quantity.of,
+                          c);
+  return result;
 }
 
 template <int dim>

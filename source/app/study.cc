@@ -7,6 +7,7 @@
 #include <snug/app/optimize.h>
 #include <snug/app/read_deck.h>
 #include <snug/app/sensitivity.h>
+#include <snug/app/serve.h>
 #include <snug/app/state_report.h>
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
@@ -52,6 +53,8 @@ void report(const ShapeProblem<dim>            &problem,
   results.warn(states);
 }
 
+} // namespace
+
 void prepare_output(const RunContext &context, const scene::Scene &scene)
 {
   for (const auto &directory : output_directories(scene))
@@ -64,6 +67,7 @@ void prepare_output(const RunContext &context, const scene::Scene &scene)
   });
 }
 
+namespace {
 template <int dim>
 void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned int ranks)
 {
@@ -284,6 +288,7 @@ std::string translate_cad(const Options &options, const RunContext &context)
 int run(const Options &options)
 {
   reserve_blas_buffer();
+  const int  answers = options.serve ? divert_standard_output() : -1;
   RunContext context(MPI_COMM_WORLD, std::cout);
   if (cad::is_cad_file(options.file))
     {
@@ -306,7 +311,9 @@ int run(const Options &options)
   const scene::Scene scene = scene::read_scene(source);
   report_translation(context, options, translation);
   feti::check_factor_options(scene.feti.factorization);
-  if (options.estimate)
+  if (options.serve)
+    serve(context, source, scene, answers);
+  else if (options.estimate)
     scene.dimension == 2 ? estimate_in<2>(context, scene, options.ranks)
                          : estimate_in<3>(context, scene, options.ranks);
   else if (options.validate)

@@ -34,9 +34,10 @@ public:
   /// @p problem must outlive this object.
   explicit Analyses(ShapeProblem<dim> &problem);
 
-  /// Solve a design, and keep its forces as a start for later ones. @throws TangledMesh,
-  /// SolveError.
-  Analysis<dim> &solve(const Design &design);
+  /// Solve a design, and keep its forces as a start for later ones. With @p is_cold the result does
+  /// not depend on earlier designs, bit for bit. After an error the last analysis is that before.
+  /// @throws TangledMesh, SolveError.
+  Analysis<dim> &solve(const Design &design, bool is_cold = false);
 
   /// Return the analysis of @p design, which is solved unless it is the last one. It is valid until
   /// another design is analysed or contact is searched. @throws TangledMesh, SolveError.

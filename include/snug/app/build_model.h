@@ -21,6 +21,13 @@ auto with_file_context(const scene::Scene &scene, const Make &make)
     }
 }
 
+/// Return the relative tolerance of the states of a search that evaluates @p responses. An error e
+/// of the state changes the potential energy, which the state minimizes, by e^2, and other
+/// responses by e. Errors of such responses above the tolerance of the optimizer would keep the
+/// optimizer from meeting its tolerance.
+template <int dim>
+double search_tolerance(const scene::Scene &scene, const std::vector<std::string> &responses);
+
 /// Make the coarse cells of all bodies, refined as the scene says. Collective. @throws InputError
 /// naming the file.
 template <int dim>

@@ -19,6 +19,7 @@ struct Options
   bool                     estimate         = false;
   unsigned int             ranks            = 0; ///< of the estimate; 0: those of the run
   bool                     translate        = false;
+  bool                     serve            = false;
   bool                     print_parameters = false;
   bool                     help             = false;
   bool                     version          = false;

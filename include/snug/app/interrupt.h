@@ -8,6 +8,9 @@ namespace snug::app {
 /// ends the process.
 void catch_interrupts();
 
+/// Return whether this rank has received a signal.
+bool is_interrupted();
+
 /// Throw Interrupted on all ranks if any rank has received a signal. Collective.
 void check_interrupts(MPI_Comm communicator);
 } // namespace snug::app

@@ -2,6 +2,7 @@
 #define snug_app_mesh_summary_h
 
 #include <snug/app/bounding_box.h>
+#include <snug/mesh/surface.h>
 #include <snug/scene/scene.h>
 
 #include <iosfwd>

@@ -55,6 +55,15 @@ public:
   /// @throws TangledMesh, SolveError.
   const sensitivity::Gradients<dim> &gradients(const Design &design);
 
+  /// Return the names of the responses and the load cases of combined_gradients().
+  std::vector<std::pair<std::string, unsigned int>> measured_names() const;
+
+  /// Return the gradients of the objective, of the constraints and of the terms of their maxima,
+  /// combined of @p found, the gradients at @p states of measured_names(). Collective.
+  std::vector<sensitivity::Gradient<dim>>
+  combined_gradients(const States                                  &states,
+                     const std::vector<sensitivity::Gradient<dim>> &found) const;
+
   /// Return the problem of an optimizer that begins at @p start. The result refers to this object.
   optimization::DesignProblem design_problem(const Design &start);
 

@@ -1,0 +1,49 @@
+#ifndef snug_app_answer_h
+#define snug_app_answer_h
+
+#include <snug/app/shape_problem.h>
+
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace snug::app {
+/// A JSON value that keeps the order of its members. Numbers that are not finite become null.
+using Json = nlohmann::ordered_json;
+
+/// Error for a request to a server that is wrong in form or in a name, a number or a bound. Nothing
+/// was computed for it.
+class RequestError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Return {kind, message} of an error. Errors of entries also have the members entry, value,
+/// allowed and, if it is known, file and line.
+Json error_part(const std::exception &error);
+
+/// Return a list of {code, text, value, bound}.
+Json warnings_part(const std::vector<Warning> &warnings);
+
+/// Return {name, max_pressure, ...} of each load case. Forces and areas are those of summary.json.
+template <int dim>
+Json load_cases_part(const ShapeProblem<dim>                  &problem,
+                     const typename ShapeProblem<dim>::States &states);
+
+/// Return the contact rows of each load case and pair, as lists of the same length. Positions are
+/// those of the slave nodes without displacements, in the position of the load case, and normals
+/// are unit vectors into the master. Collective.
+template <int dim>
+Json contact_part(const ShapeProblem<dim>                  &problem,
+                  const typename ShapeProblem<dim>::States &states);
+
+/// Return {name, lower, upper, start, scale, unit} of each design variable. The scale is the change
+/// in the first step of a search. Collective.
+template <int dim>
+Json variables_part(const ShapeProblem<dim> &problem);
+} // namespace snug::app
+
+#endif
