@@ -94,7 +94,7 @@ private:
   bool              is_closed = false;
 };
 
-/// Return the value of an entry as in a parameter file. @throws RequestError.
+/// Return the value of an entry as in a parameter file. @throws io::RequestError.
 std::string entry_text(const std::string &entry, const Json &value)
 {
   if (value.is_string())
@@ -102,34 +102,33 @@ std::string entry_text(const std::string &entry, const Json &value)
   if (value.is_number() || value.is_boolean())
     return value.dump();
   std::string text;
-  for (const Json &part : value)
+  for (const Json &part : value.is_array() ? value : Json::array({nullptr}))
     {
-      if (!value.is_array() || part.is_structured() || part.is_null())
-        throw RequestError("'entries': the value of '" + entry +
-                           "' must be a text, a number, true, false, or a list of these");
+      if (part.is_structured() || part.is_null())
+        throw io::RequestError("'entries': the value of '" + entry +
+                               "' must be a text, a number, true, false, or a list of these");
       text += (text.empty() ? "" : ", ") + entry_text(entry, part);
     }
   return text;
 }
 
-/// Throw a RequestError for keys that the request does not have.
+/// Throw a io::RequestError for keys that the request does not have.
 void check_keys(const Json &request, const std::string &name)
 {
   static const std::map<std::string, std::vector<std::string>> keys = {
     {"describe", {}},
-    {"evaluate", {"x", "gradients", "start", "contact", "errors", "outside"}},
+    {"evaluate", {"x", "gradients", "start", "contact", "outside"}},
     {"set", {"entries"}},
     {"pair", {"x", "outside"}},
-    {"write", {"x", "outside"}},
     {"quit", {}}};
   const auto known = keys.find(name);
   if (known == keys.end())
-    throw RequestError("'do' must be describe, evaluate, set, pair, write or quit, not '" + name +
-                       "'");
+    throw io::RequestError("'do' must be describe, evaluate, set, pair or quit, not '" + name +
+                           "'");
   for (const auto &[key, value] : request.items())
     if (key != "id" && key != "do" &&
         std::find(known->second.begin(), known->second.end(), key) == known->second.end())
-      throw RequestError("'" + name + "' has no key '" + key + "'");
+      throw io::RequestError("'" + name + "' has no key '" + key + "'");
 }
 
 template <int dim>
@@ -166,17 +165,17 @@ private:
     try
       {
         if (line.size() > longest_line)
-          throw RequestError("a request must have at most 16 MB");
+          throw io::RequestError("a request must have at most 16 MB");
         const Json request = Json::parse(line);
         if (!request.is_object())
-          throw RequestError("a request must be a JSON object");
+          throw io::RequestError("a request must be a JSON object");
         answer["id"] = request.value("id", Json());
         check_interrupts(context.communicator());
         answer.update(answer_to(request));
       }
     catch (const std::exception &error)
       {
-        answer["error"] = error_part(error);
+        answer["error"] = io::error_part(error);
       }
     return answer;
   }
@@ -184,7 +183,7 @@ private:
   Json answer_to(const Json &request)
   {
     if (!request.contains("do") || !request["do"].is_string())
-      throw RequestError("'do' must be the name of a request");
+      throw io::RequestError("'do' must be the name of a request");
     const auto name = request["do"].get<std::string>();
     check_keys(request, name);
     if (name == "describe")
@@ -195,8 +194,6 @@ private:
       return set(request);
     if (name == "pair")
       return model->pair(request);
-    if (name == "write")
-      return model->write(request);
     is_ended = true;
     return Json::object();
   }
@@ -204,7 +201,7 @@ private:
   Json set(const Json &request)
   {
     if (!request.contains("entries") || !request["entries"].is_object())
-      throw RequestError("'entries' must be an object of entries and values");
+      throw io::RequestError("'entries' must be an object of entries and values");
     auto next = source;
     for (const auto &[entry, value] : request["entries"].items())
       {
@@ -218,7 +215,7 @@ private:
     const auto scene = scene::read_scene(next);
     feti::check_factor_options(scene.feti.factorization);
     if (scene.dimension != dim)
-      throw RequestError("'Dimension' must stay " + std::to_string(dim));
+      throw io::RequestError("'Dimension' must stay " + std::to_string(dim));
     auto made = std::make_unique<ServedModel<dim>>(context, scene, model.get());
     model     = std::move(made);
     source    = std::move(next);

@@ -1,11 +1,9 @@
 #include <snug/app/results.h>
 #include <snug/app/served_model.h>
-#include <snug/app/study.h>
 #include <snug/base/entries.h>
 #include <snug/state/validity_checks.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <sstream>
 
@@ -70,22 +68,15 @@ std::vector<Warning> warnings_of(const std::vector<state::ContactState<dim>> &st
   return result;
 }
 
-/// This class measures the wall time of consecutive parts [ms].
-class StopWatch
+/// Return the value of a key that is true or false, or false without the key. @throws
+/// io::RequestError.
+bool flag(const Json &request, const std::string &key)
 {
-public:
-  double lap()
-  {
-    const auto now = Clock::now();
-    const auto ms  = std::chrono::duration<double, std::milli>(now - last).count();
-    last           = now;
-    return ms;
-  }
-
-private:
-  using Clock            = std::chrono::steady_clock;
-  Clock::time_point last = Clock::now();
-};
+  const Json value = request.value(key, Json(false));
+  if (!value.is_boolean())
+    throw io::RequestError("'" + key + "' must be true or false");
+  return value.get<bool>();
+}
 } // namespace
 
 template <int dim>
@@ -125,7 +116,7 @@ template <int dim>
 Json ServedModel<dim>::describe() const
 {
   const auto &shapes = *problem->shapes;
-  Json        answer = {{"variables", variables_part(*problem)}, {"limits", Json::array()}};
+  Json answer = {{"variables", io::variables_part(scene, shapes)}, {"limits", Json::array()}};
   for (const auto &limit : shapes.limits())
     answer["limits"].push_back(
       {{"row", limit.row}, {"bound", limit.bound}, {"entry", limit.entry}});
@@ -138,11 +129,10 @@ Json ServedModel<dim>::describe() const
     answer["responses"].push_back({{"name", output_names[i]},
                                    {"unit", unit(scene, names[i % names.size()])},
                                    {"needs_state", outputs[i].response->needs_solution()}});
-  answer["objective"]             = scene.optimization.objective;
-  answer["constraints"]           = Json::array();
-  const auto               &given = scene.optimization.constraints;
-  const std::vector<double> unused(given.size());
-  const auto                constraints = objective->constraint_values(unused, unused);
+  answer["objective"]     = scene.optimization.objective;
+  answer["constraints"]   = Json::array();
+  const auto &given       = scene.optimization.constraints;
+  const auto  constraints = this->constraints();
   for (unsigned int i = 0; i < constraints.size(); ++i)
     answer["constraints"].push_back(
       {{"name", constraints[i].name},
@@ -151,8 +141,16 @@ Json ServedModel<dim>::describe() const
        {"side", side_name(constraints[i].side)}});
   answer["tolerance"] = problem->solver->tolerance();
   answer["unknowns"]  = dim * problem->mesh->n_global_free_nodes();
-  answer["warnings"]  = warnings_part(context.warnings());
+  answer["warnings"]  = io::warnings_part(context.warnings());
   return answer;
+}
+
+/// Return names, limits and sides of the constraints. Their values are not used.
+template <int dim>
+std::vector<typename Objective<dim>::ConstraintValue> ServedModel<dim>::constraints() const
+{
+  const std::vector<double> unused(scene.optimization.constraints.size());
+  return objective->constraint_values(unused, unused);
 }
 
 template <int dim>
@@ -164,20 +162,20 @@ typename ServedModel<dim>::Design ServedModel<dim>::design(const Json &request) 
   const Json &x = request["x"];
   if (!x.is_array() ||
       !std::all_of(x.begin(), x.end(), [](const Json &value) { return value.is_number(); }))
-    throw RequestError("'x' must be a list of numbers");
+    throw io::RequestError("'x' must be a list of numbers");
   if (x.size() != shapes.n_variables())
-    throw RequestError("'x' has " + std::to_string(x.size()) + " numbers, but there are " +
-                       std::to_string(shapes.n_variables()) + " design variables");
+    throw io::RequestError("'x' has " + std::to_string(x.size()) + " numbers, but there are " +
+                           std::to_string(shapes.n_variables()) + " design variables");
   const auto result = x.get<Design>();
-  if (flag(request, "outside", false))
+  if (flag(request, "outside"))
     return result;
   for (unsigned int i = 0; i < result.size(); ++i)
     if (result[i] < shapes.lower_bounds()[i] || result[i] > shapes.upper_bounds()[i])
-      throw RequestError("x[" + std::to_string(i) + "] = " + x[i].dump() + " must be from " +
-                         Json(shapes.lower_bounds()[i]).dump() + " to " +
-                         Json(shapes.upper_bounds()[i]).dump());
+      throw io::RequestError("x[" + std::to_string(i) + "] = " + x[i].dump() + " must be from " +
+                             Json(shapes.lower_bounds()[i]).dump() + " to " +
+                             Json(shapes.upper_bounds()[i]).dump());
   if (const auto entry = shapes.most_violated_limit(result); !entry.empty())
-    throw RequestError("'x' violates the limit of entry '" + entry + "'");
+    throw io::RequestError("'x' violates the limit of entry '" + entry + "'");
   return result;
 }
 
@@ -204,7 +202,7 @@ std::vector<unsigned int> ServedModel<dim>::wanted_gradients(const Json &request
   std::vector<unsigned int> wanted;
   const Json                given = request.value("gradients", Json(false));
   if (given != Json(false) && problem->shapes->n_variables() == 0)
-    throw RequestError("there are no gradients, because the model has no design variables");
+    throw io::RequestError("there are no gradients, because the model has no design variables");
   if (given.is_boolean())
     {
       for (unsigned int i = 0; i < outputs.size() && given == Json(true); ++i)
@@ -212,12 +210,12 @@ std::vector<unsigned int> ServedModel<dim>::wanted_gradients(const Json &request
       return wanted;
     }
   if (!given.is_array())
-    throw RequestError("'gradients' must be true, false or a list of names of responses");
+    throw io::RequestError("'gradients' must be true, false or a list of names of responses");
   for (const Json &name : given)
     {
       const auto found = std::find(output_names.begin(), output_names.end(), name);
       if (found == output_names.end())
-        throw RequestError("'gradients': there is no response " + name.dump());
+        throw io::RequestError("'gradients': there is no response " + name.dump());
       wanted.push_back(found - output_names.begin());
     }
   return wanted;
@@ -232,7 +230,7 @@ Json ServedModel<dim>::values(const States &states) const
       outputs[i].response->value(*problem->solver, states[outputs[i].load_case]);
   const auto found       = objective->values(states);
   Json       constraints = Json::array();
-  const auto of_scene    = objective->constraint_values(found.constrained, found.constrained);
+  const auto of_scene    = this->constraints();
   for (unsigned int i = 0; i < of_scene.size(); ++i)
     constraints.push_back({{"name", of_scene[i].name}, {"value", found.constraints[i]}});
   return {{"values", of_responses},
@@ -271,8 +269,7 @@ void ServedModel<dim>::add_gradients(const Design                    &design,
       found[c * names.size() + (std::find(names.begin(), names.end(), name) - names.begin())]);
   const auto combined = objective->combined_gradients(analyses->last(design)->states, of_objective);
   answer["objective"]["gradient"] = combined.front().values;
-  const std::vector<double> unused(answer["constraints"].size());
-  const auto                constraints = objective->constraint_values(unused, unused);
+  const auto constraints          = this->constraints();
   for (unsigned int i = 0; i < constraints.size(); ++i)
     {
       auto       gradient = combined[i + 1].values;
@@ -284,52 +281,35 @@ void ServedModel<dim>::add_gradients(const Design                    &design,
 }
 
 template <int dim>
-Json ServedModel<dim>::errors(const States &states) const
-{
-  Json part = Json::array();
-  for (const auto &error : mesh_errors(*problem, states))
-    {
-      Json of_responses = Json::object();
-      for (const auto &[name, estimate] : error.responses)
-        of_responses[name] = estimate.error();
-      part.push_back({{"energy", error.energy.error}, {"responses", of_responses}});
-    }
-  return part;
-}
-
-template <int dim>
 Json ServedModel<dim>::evaluate(const Json &request)
 {
   const auto        x            = design(request);
   const auto        wanted       = wanted_gradients(request);
-  const bool        with_contact = flag(request, "contact", false);
-  const bool        with_errors  = flag(request, "errors", false);
+  const bool        with_contact = flag(request, "contact");
   const std::string start        = request.value("start", "cold");
   if (start != "cold" && start != "warm")
-    throw RequestError("'start' must be \"cold\" or \"warm\"");
-  if (with_errors && scene.accuracy.estimate == accuracy::Estimate::none)
-    throw RequestError("'errors' requires the entry 'Accuracy/Estimate'");
-  StopWatch   watch;
-  const Work  before = context.total_work();
-  const auto &states = analyse(x, start == "cold");
-  Json        answer = {{"x", x}};
+    throw io::RequestError("'start' must be \"cold\" or \"warm\"");
+  const double begin  = context.seconds();
+  const Work   before = context.total_work();
+  const auto  &states = analyse(x, start == "cold");
+  Json         answer = {{"x", x}};
   answer.update(values(states));
-  const double state_ms = watch.lap();
+  const double solved = context.seconds();
   if (!wanted.empty())
     add_gradients(x, wanted, request["gradients"] == Json(true), answer);
-  const double gradients_ms = watch.lap();
-  answer["load_cases"]      = load_cases_part(*problem, states);
-  answer["drift"]           = problem->drift(x);
-  const Work after          = context.total_work();
+  const double differentiated = context.seconds();
+  answer["load_cases"]        = io::load_cases_part(scene, states);
+  answer["drift"]             = problem->drift(x);
+  const Work after            = context.total_work();
   if (with_contact)
-    answer["contact"] = contact_part(*problem, states);
-  if (with_errors)
-    answer["errors"] = errors(states);
+    answer["contact"] = io::contact_part(scene, *problem->solver, states);
   answer["work"]     = {{"f_mults", after.f_mults - before.f_mults},
                         {"numeric_factorizations",
                          after.numeric_factorizations - before.numeric_factorizations}};
-  answer["warnings"] = warnings_part(warnings_of(states));
-  answer["ms"]       = {{"state", state_ms}, {"gradients", gradients_ms}, {"other", watch.lap()}};
+  answer["warnings"] = io::warnings_part(warnings_of(states));
+  answer["ms"]       = {{"state", 1e3 * (solved - begin)},
+                        {"gradients", 1e3 * (differentiated - solved)},
+                        {"other", 1e3 * (context.seconds() - differentiated)}};
   return answer;
 }
 
@@ -348,30 +328,6 @@ Json ServedModel<dim>::pair(const Json &request)
     }
   paired = x;
   return {{"x", x}};
-}
-
-template <int dim>
-Json ServedModel<dim>::write(const Json &request)
-{
-  const auto  x      = design(request);
-  const auto &states = analyse(x, true);
-  prepare_output(context, scene);
-  remove_earlier_results(context, scene);
-  Results<dim> results(*problem);
-  results.warn(states);
-  results.add_last(0., states);
-  results.export_shape(x);
-  results.write_summary();
-  return {{"x", x}, {"directory", scene.output_directory}};
-}
-
-bool flag(const Json &request, const std::string &key, const bool usual)
-{
-  if (!request.contains(key))
-    return usual;
-  if (!request[key].is_boolean())
-    throw RequestError("'" + key + "' must be true or false");
-  return request[key].get<bool>();
 }
 
 template class ServedModel<2>;

@@ -53,8 +53,6 @@ void report(const ShapeProblem<dim>            &problem,
   results.warn(states);
 }
 
-} // namespace
-
 void prepare_output(const RunContext &context, const scene::Scene &scene)
 {
   for (const auto &directory : output_directories(scene))
@@ -67,7 +65,6 @@ void prepare_output(const RunContext &context, const scene::Scene &scene)
   });
 }
 
-namespace {
 template <int dim>
 void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned int ranks)
 {

@@ -1,10 +1,12 @@
 #ifndef snug_app_served_model_h
 #define snug_app_served_model_h
 
-#include <snug/app/answer.h>
 #include <snug/app/objective.h>
+#include <snug/io/answer.h>
 
 namespace snug::app {
+using io::Json;
+
 /// This class answers the requests of a server about one model; doc/serve.md describes requests and
 /// answers. All members are collective. An error leaves the object as it was.
 template <int dim>
@@ -31,22 +33,19 @@ public:
   /// Search contact anew at a design. @throws the same errors.
   Json pair(const Json &request);
 
-  /// Write the files of the states of a design to the output directory. @throws the same errors.
-  Json write(const Json &request);
-
 private:
   using States = typename ShapeProblem<dim>::States;
 
-  Design                    design(const Json &request) const;
-  const States             &analyse(const Design &design, bool is_cold);
-  std::vector<unsigned int> wanted_gradients(const Json &request) const;
+  Design                                                design(const Json &request) const;
+  const States                                         &analyse(const Design &design, bool is_cold);
+  std::vector<typename Objective<dim>::ConstraintValue> constraints() const;
+  std::vector<unsigned int>                             wanted_gradients(const Json &request) const;
   /// Return the values of all outputs, the objective and the constraints.
   Json values(const States &states) const;
   void add_gradients(const Design                    &design,
                      const std::vector<unsigned int> &wanted,
                      bool                             all,
                      Json                            &answer);
-  Json errors(const States &states) const;
 
   RunContext                                           &context;
   scene::Scene                                          scene;
@@ -64,10 +63,6 @@ private:
   sensitivity::MeasuredResponses<dim> outputs;
   std::vector<std::string>            output_names;
 };
-
-/// Return the value of a key that is true or false, or @p usual without the key. @throws
-/// RequestError.
-bool flag(const Json &request, const std::string &key, bool usual);
 } // namespace snug::app
 
 #endif

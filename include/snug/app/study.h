@@ -13,10 +13,6 @@ namespace snug::app {
  */
 void run_study(RunContext &context, const scene::Scene &scene, const Options &options);
 
-/// Make the output directory of a scene, and write the entries to `parameters.prm` there.
-/// Collective.
-void prepare_output(const RunContext &context, const scene::Scene &scene);
-
 /// Print what the meshes of a scene look like and make all that its task needs, but solve nothing.
 /// @param[in] writes Whether the entries and the meshes are written to the directory 'model' of
 /// the output directory; else there are no files. Collective. @throws InputError.

@@ -1,9 +1,9 @@
-#include <snug/app/answer.h>
 #include <snug/base/errors.h>
+#include <snug/io/answer.h>
 
 #include <regex>
 
-namespace snug::app {
+namespace snug::io {
 namespace {
 template <int dim>
 Json list(const dealii::Tensor<1, dim> &vector)
@@ -14,10 +14,9 @@ Json list(const dealii::Tensor<1, dim> &vector)
   return result;
 }
 
-template <int dim>
-std::string load_case_name(const ShapeProblem<dim> &problem, const unsigned int c)
+std::string load_case_name(const scene::Scene &scene, const unsigned int c)
 {
-  return problem.scene.load_cases.empty() ? "" : problem.scene.load_cases[c].name;
+  return scene.load_cases.empty() ? "" : scene.load_cases[c].name;
 }
 
 std::string kind_of(const std::exception &error)
@@ -75,12 +74,11 @@ Json warnings_part(const std::vector<Warning> &warnings)
 }
 
 template <int dim>
-Json load_cases_part(const ShapeProblem<dim>                  &problem,
-                     const typename ShapeProblem<dim>::States &states)
+Json load_cases_part(const scene::Scene &scene, const std::vector<state::ContactState<dim>> &states)
 {
   Json part = Json::array();
   for (const auto &state : states)
-    part.push_back({{"name", load_case_name(problem, state.load_case)},
+    part.push_back({{"name", load_case_name(scene, state.load_case)},
                     {"max_pressure", state.max_pressure},
                     {"contact_area", state.contact_area},
                     {"contact_force", list(state.contact_force)},
@@ -91,21 +89,22 @@ Json load_cases_part(const ShapeProblem<dim>                  &problem,
 }
 
 template <int dim>
-Json contact_part(const ShapeProblem<dim>                  &problem,
-                  const typename ShapeProblem<dim>::States &states)
+Json contact_part(const scene::Scene                          &scene,
+                  const state::StateSolver<dim>               &solver,
+                  const std::vector<state::ContactState<dim>> &states)
 {
   Json part = Json::array();
   for (const auto &state : states)
     {
-      const auto &contact   = problem.solver->contact(state.load_case);
-      const auto  positions = problem.solver->surface().gather(state.positions);
+      const auto &contact   = solver.contact(state.load_case);
+      const auto  positions = solver.surface().gather(state.positions);
       const auto  in_space  = contact.placed_surface().to_space(positions);
       const auto  rows      = contact.rows(positions);
       Json        tables    = Json::array();
       for (const auto &pair : contact.named_pairs())
         {
           tables.push_back(
-            {{"load_case", load_case_name(problem, state.load_case)}, {"pair", pair.name()}});
+            {{"load_case", load_case_name(scene, state.load_case)}, {"pair", pair.name()}});
           for (const char *column :
                {"position", "normal", "pressure", "gap", "force", "area", "status"})
             tables.back()[column] = Json::array();
@@ -129,19 +128,18 @@ Json contact_part(const ShapeProblem<dim>                  &problem,
 }
 
 template <int dim>
-Json variables_part(const ShapeProblem<dim> &problem)
+Json variables_part(const scene::Scene &scene, const shape::Shapes<dim> &shapes)
 {
-  const auto &shapes = *problem.shapes;
-  const auto  scale  = shapes.first_steps();
-  const auto &units  = problem.scene.units;
-  Json        part   = Json::array();
+  const auto  scale = shapes.first_steps();
+  const auto &units = scene.units;
+  Json        part  = Json::array();
   for (const auto &[name, values] : shapes.by_shape(shapes.start()))
     for (std::size_t k = 0; k < values.size(); ++k)
       {
         std::string label = name;
         // Amplitudes of formulas may have any unit.
         bool is_length = true;
-        for (const auto &shape : problem.scene.shapes)
+        for (const auto &shape : scene.shapes)
           if (shape.name == name)
             {
               label     = name.empty() ? (shape.face.empty() ? "shape" : shape.face) : name;
@@ -158,11 +156,13 @@ Json variables_part(const ShapeProblem<dim> &problem)
   return part;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                  \
-  template Json load_cases_part(const ShapeProblem<dim> &, const ShapeProblem<dim>::States &); \
-  template Json contact_part(const ShapeProblem<dim> &, const ShapeProblem<dim>::States &);    \
-  template Json variables_part(const ShapeProblem<dim> &);
+#define SNUG_INSTANTIATE(dim)                                                       \
+  template Json load_cases_part(const scene::Scene &,                               \
+                                const std::vector<state::ContactState<dim>> &);     \
+  template Json contact_part(const scene::Scene &, const state::StateSolver<dim> &, \
+                             const std::vector<state::ContactState<dim>> &);        \
+  template Json variables_part(const scene::Scene &, const shape::Shapes<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-} // namespace snug::app
+} // namespace snug::io

@@ -1,7 +1,10 @@
-#ifndef snug_app_answer_h
-#define snug_app_answer_h
+#ifndef snug_io_answer_h
+#define snug_io_answer_h
 
-#include <snug/app/shape_problem.h>
+#include <snug/base/warning.h>
+#include <snug/scene/scene.h>
+#include <snug/shape/shapes.h>
+#include <snug/state/state_solver.h>
 
 #include <nlohmann/json.hpp>
 
@@ -9,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace snug::app {
+namespace snug::io {
 /// A JSON value that keeps the order of its members. Numbers that are not finite become null.
 using Json = nlohmann::ordered_json;
 
@@ -22,28 +25,29 @@ public:
 };
 
 /// Return {kind, message} of an error. Errors of entries also have the members entry, value,
-/// allowed and, if it is known, file and line.
+/// allowed and, if they are known, file and line.
 Json error_part(const std::exception &error);
 
 /// Return a list of {code, text, value, bound}.
 Json warnings_part(const std::vector<Warning> &warnings);
 
-/// Return {name, max_pressure, ...} of each load case. Forces and areas are those of summary.json.
+/// Return {name, max_pressure, ...} of each load case, as in summary.json.
 template <int dim>
-Json load_cases_part(const ShapeProblem<dim>                  &problem,
-                     const typename ShapeProblem<dim>::States &states);
+Json load_cases_part(const scene::Scene                          &scene,
+                     const std::vector<state::ContactState<dim>> &states);
 
 /// Return the contact rows of each load case and pair, as lists of the same length. Positions are
 /// those of the slave nodes without displacements, in the position of the load case, and normals
 /// are unit vectors into the master. Collective.
 template <int dim>
-Json contact_part(const ShapeProblem<dim>                  &problem,
-                  const typename ShapeProblem<dim>::States &states);
+Json contact_part(const scene::Scene                          &scene,
+                  const state::StateSolver<dim>               &solver,
+                  const std::vector<state::ContactState<dim>> &states);
 
 /// Return {name, lower, upper, start, scale, unit} of each design variable. The scale is the change
 /// in the first step of a search. Collective.
 template <int dim>
-Json variables_part(const ShapeProblem<dim> &problem);
-} // namespace snug::app
+Json variables_part(const scene::Scene &scene, const shape::Shapes<dim> &shapes);
+} // namespace snug::io
 
 #endif
