@@ -1,0 +1,210 @@
+"""A model, whose designs are evaluated by a process of the program."""
+
+import concurrent.futures
+import os
+import pathlib
+import queue
+import tempfile
+
+import numpy as np
+
+from .errors import DesignFailed, RequestError
+from .process import Process, find_program
+from .table import table, vectors
+
+ROUND_OFF = 1e-9  # of the width of the bounds: optimizers leave bounds by round-off
+
+
+def text_of(value):
+    """Return the value of an entry as in a parameter file."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return ", ".join(map(text_of, value))
+    return repr(float(value)) if isinstance(value, np.floating) else str(value)
+
+
+class Result:
+    """The answer to an evaluation; `answer` is its JSON.
+
+    values       number of each response
+    gradients    derivatives of the wanted responses, arrays of the size of the design
+    objective    value of the objective of the model, objective_gradient with gradients=True
+    constraints  value of each constraint of the model
+    certificate  the largest relative error of the solutions, measured independently of the solver
+    drift        distance from the last contact search in sizes of faces
+    work         applications of F and factorizations that the answer took"""
+
+    def __init__(self, answer):
+        self.answer, self.x = answer, np.array(answer["x"], float)
+        self.values, self.work, self.drift = answer["values"], answer["work"], answer["drift"]
+        self.gradients = {name: np.array(row, float)
+                          for name, row in answer.get("gradients", {}).items()}
+        self.objective = answer["objective"]["value"]
+        self.objective_gradient = answer["objective"].get("gradient")
+        self.constraints = {part["name"]: part["value"] for part in answer["constraints"]}
+        self.load_cases = answer["load_cases"]
+        self.certificate = max(part["certificate"] for part in self.load_cases)
+
+    def __getitem__(self, name):
+        return self.values[name]
+
+    def __repr__(self):
+        values = ", ".join(f"{name}={value:.6g}" if value is not None else f"{name}=None"
+                           for name, value in self.values.items())
+        return f"Result({values}, certificate={self.certificate:.1e}, drift={self.drift:.2g})"
+
+    def contact(self, case=0):
+        """Return the table of the slave nodes of a load case, given by its number or name."""
+        if "contact" not in self.answer:
+            raise RequestError("contact tables require evaluate(.., contact=True)")
+        name = case if isinstance(case, str) else self.load_cases[case]["name"]
+        parts = [part for part in self.answer["contact"] if part["load_case"] == name]
+        if not parts:
+            raise RequestError(f"there is no contact table of a load case '{name}'")
+        columns = {key: sum((part[key] for part in parts), [])
+                   for key in ("pressure", "gap", "force", "area", "status")}
+        pairs = sum(([part["pair"]] * len(part["area"]) for part in parts), [])
+        position, normal = (sum((part[key] for part in parts), []) for key in ("position", "normal"))
+        return table({"pair": pairs, **vectors("", position), **vectors("normal", normal),
+                      **columns})
+
+
+class Model:
+    """A parameter file in a process of its own, which keeps meshes and factors.
+
+    file     the parameter file, or a deck
+    set      entries and their values, such as {"Contact/Friction coefficient": 0.1}
+    ranks    number of MPI processes
+    program  path of the program; without it the variable SNUG, then snug on the PATH
+    timeout  seconds after which a request without an answer ends the process (Died)"""
+
+    def __init__(self, file, set=None, ranks=1, program=None, timeout=None):
+        self.file, self.last, self.folder = file, None, None
+        self.arguments = {"ranks": ranks, "program": program, "timeout": timeout}
+        self.entries = dict(set or {})
+        self.changes = []  # requests that a copy of the model repeats
+        command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
+        command += [find_program(program), "--serve", os.fspath(file)]
+        for entry, value in self.entries.items():
+            command += ["--set", f"{entry}={text_of(value)}"]
+        self.process = Process(command, timeout)
+        self.describe()
+
+    @classmethod
+    def from_dict(cls, scene, **arguments):
+        """Return the model of {"Task": "state", "Body upper": {"Box cells": [3, 2]}, ..}."""
+        lines = []
+        for name, value in sorted(scene.items(), key=lambda item: isinstance(item[1], dict)):
+            if not isinstance(value, dict):
+                lines.append(f"set {name} = {text_of(value)}")
+                continue
+            lines += [f"subsection {name}",
+                      *(f"  set {entry} = {text_of(part)}" for entry, part in value.items()), "end"]
+        folder = tempfile.TemporaryDirectory(prefix="snug-")
+        file = pathlib.Path(folder.name, "model.prm")
+        file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        model = cls(file, **arguments)
+        model.folder = folder  # removed with the model
+        return model
+
+    def describe(self):
+        about = self.about = self.process.call("describe")
+        self.variables = [part["name"] for part in about["variables"]]
+        self.responses = [part["name"] for part in about["responses"]]
+        self.limits, self.load_cases = about["limits"], about["load_cases"]
+        self.lower, self.upper, self.start, self.scale = (
+            np.array([part[key] for part in about["variables"]], float)
+            for key in ("lower", "upper", "start", "scale"))
+
+    def __repr__(self):
+        return (f"Model({os.fspath(self.file)!r}: {len(self.variables)} design variables, "
+                f"responses {', '.join(self.responses)})")
+
+    def design(self, x):
+        """Return x as a list, clipped into the bounds where it leaves them by round-off."""
+        x = np.asarray(x, float)
+        if x.shape != self.lower.shape:
+            raise RequestError(f"the design has the shape {x.shape}, but there are "
+                               f"{len(self.lower)} design variables")
+        if not np.isfinite(x).all():
+            raise RequestError("the design must be finite")
+        inside = np.clip(x, self.lower, self.upper)
+        is_near = np.abs(x - inside) <= ROUND_OFF * (self.upper - self.lower)
+        return np.where(is_near, inside, x).tolist()
+
+    def evaluate(self, x=None, gradients=False, start="cold", contact=False, errors=False):
+        """Return the Result of a design, the start of the model without x. `gradients` is True
+        for all responses, or a list of their names. With start="cold" equal requests have equal
+        bits; "warm" begins with the forces of earlier designs, as a search does."""
+        keys = {"x": self.design(self.start if x is None else x), "start": start,
+                "gradients": gradients if isinstance(gradients, bool) else list(gradients),
+                "contact": contact, "errors": errors}
+        if self.last is None or self.last[0] != keys:
+            self.last = keys, Result(self.process.call("evaluate", **keys))
+        return self.last[1]
+
+    def sample(self, X, processes=1, **keys):
+        """Return a table of the designs in the rows of X, their responses, and the column
+        `failure`, which is empty or a message. With several processes the numbers are the same,
+        because each evaluation starts without a history."""
+        X = np.atleast_2d(np.asarray(X, float))
+        others = [self.copy() for _ in range(min(processes, len(X)) - 1)]
+        free = queue.SimpleQueue()
+        for model in [self, *others]:
+            free.put(model)
+
+        def row(x):
+            model = free.get()
+            try:
+                return {**model.evaluate(x, **keys).values, "failure": ""}
+            except DesignFailed as error:
+                return {"failure": str(error)}
+            finally:
+                free.put(model)
+
+        try:
+            with concurrent.futures.ThreadPoolExecutor(1 + len(others)) as pool:
+                rows = list(pool.map(row, X))
+        finally:
+            for model in others:
+                model.close()
+        columns = {name: [np.nan if part.get(name) is None else part[name] for part in rows]
+                   for name in self.responses}
+        return table({**dict(zip(self.variables, X.T)), **columns,
+                      "failure": [part["failure"] for part in rows]})
+
+    def copy(self):
+        """Return a model of another process with the same entries and contact search."""
+        model = Model(self.file, self.entries, **self.arguments)
+        for do, keys in self.changes:
+            model.change(do, **keys)
+        return model
+
+    def change(self, do, **keys):
+        self.last = None
+        answer = self.process.call(do, **keys)
+        self.changes.append((do, keys))
+        return answer
+
+    def set(self, entries):
+        """Change entries of the model; if that fails, the model stays as it was."""
+        self.change("set", entries={name: text_of(value) for name, value in entries.items()})
+        self.describe()
+
+    def pair(self, x):
+        """Search the contacts of a design anew."""
+        self.change("pair", x=self.design(x))
+
+    def write(self, x):
+        """Write the files of the state of a design, and return their directory."""
+        return self.process.call("write", x=self.design(x))["directory"]
+
+    def close(self):
+        self.process.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        self.close()
