@@ -30,9 +30,9 @@ class Process:
         self.process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             text=True, encoding="utf-8", errors="replace", start_new_session=True)
-        self.drain = threading.Thread(target=lambda: self.log.extend(self.process.stderr),
+        self.drain = threading.Thread(target=self.log.extend, args=(self.process.stderr,),
                                       daemon=True)
-        self.drain.start()  # a full pipe would block the program
+        self.drain.start()  # because a full pipe would block the program
         try:
             self.ready = self.read()
         except Died as death:
@@ -68,7 +68,7 @@ class Process:
             if self.process.stdin.closed:
                 raise Died("the model is closed", self.process.poll(), list(self.log)) from None
         answer = self.read()
-        while answer["id"] != self.n and "error" not in answer:  # of a request that Ctrl-C left
+        while answer["id"] not in (self.n, None):  # of a request that Ctrl-C left
             answer = self.read()
         if "error" in answer:
             raise error_of(answer["error"])
