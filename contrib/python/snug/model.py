@@ -105,7 +105,7 @@ class Model:
         file = pathlib.Path(folder.name, "model.prm")
         file.write_text("\n".join(lines) + "\n", encoding="utf-8")
         model = cls(file, **arguments)
-        model.folder = folder  # removed with the model
+        model.folder = folder
         return model
 
     def describe(self):
@@ -202,6 +202,8 @@ class Model:
 
     def close(self):
         self.process.close()
+        if self.folder:
+            self.folder.cleanup()
 
     def __enter__(self):
         return self

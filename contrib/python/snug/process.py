@@ -36,7 +36,7 @@ class Process:
         try:
             self.ready = self.read()
         except Died as death:
-            self.kill()
+            self.close()
             if death.status == 2:
                 raise InputError("".join(death.log).strip().rpartition("\n")[2]) from None
             raise
@@ -94,3 +94,4 @@ class Process:
             self.process.wait()
         self.drain.join(1.)
         self.process.stdout.close()
+        self.process.stderr.close()

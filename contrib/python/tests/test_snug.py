@@ -149,8 +149,9 @@ class Program(unittest.TestCase):
         import snug.scipy
         file = HERE.parents[2] / "prm" / "hertz-3d-9.prm"
         with tempfile.TemporaryDirectory() as folder, snug.Model(file, HERTZ) as model:
-            sets = [f"{name}={snug.model.text_of(value)}" for name, value in HERTZ.items()]
-            subprocess.run([os.environ["SNUG"], file, "--set", *sets, "--output", folder],
+            sets = [part for name, value in HERTZ.items()
+                    for part in ("--set", f"{name}={snug.model.text_of(value)}")]
+            subprocess.run([os.environ["SNUG"], file, *sets, "--output", folder],
                            check=True, stdout=subprocess.DEVNULL)
             volume = model.evaluate()["volume"]
             found = minimize(**snug.scipy.problem(model, "potential energy",
