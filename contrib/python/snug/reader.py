@@ -60,10 +60,13 @@ class Run:
         root = xml.etree.ElementTree.parse(folder / f"{kind}.pvd").getroot()
         files = list(dict.fromkeys(part.get("file") for part in root.iter("DataSet")))
         root = xml.etree.ElementTree.parse(folder / files[state]).getroot()
-        parts = [(piece.get("name"), [data.get("file") for data in piece.iter("DataSet")])
-                 for piece in root.iter("Piece")]
-        return {name: pyvista.merge([pyvista.read(folder / file) for file in data])
-                if len(data) > 1 else pyvista.read(folder / data[0]) for name, data in parts}
+        blocks = {}  # with several ranks a block has a file of each
+        for part in root.iter():
+            if part.tag in ("Piece", "DataSet") and part.get("name"):
+                blocks[part.get("name")] = [pyvista.read(folder / data.get("file"))
+                                            for data in part.iter("DataSet")]
+        return {name: pyvista.merge(parts) if len(parts) > 1 else parts[0]
+                for name, parts in blocks.items()}
 
 
 def read(directory):

@@ -2,7 +2,6 @@
 """The Python package against formulas, and with the variable SNUG against the program."""
 
 import importlib.util
-import json
 import os
 import pathlib
 import subprocess
@@ -163,11 +162,20 @@ class Program(unittest.TestCase):
             self.assertAlmostEqual(found.fun / objective, 1., delta=1e-8)
             self.assertLessEqual(found.nfev, 30)
             # The contact table of the process is that of the files.
-            design = json.loads(json.dumps(run.summary))["optimization"]
-            self.assertTrue(design)
             written, served = run.contact(0), model.evaluate(contact=True).contact()
             self.assertTrue(np.allclose(np.sort(written["pressure"]), np.sort(served["pressure"]),
                                         rtol=1e-5, atol=1e-3))
+
+    @needs("pyvista")
+    def test_states_of_ranks(self):
+        file = HERE.parents[2] / "prm" / "hertz-3d-9.prm"
+        with tempfile.TemporaryDirectory() as folder:
+            for ranks in (1, 2):
+                sets = {**HERTZ, "Output directory": folder}
+                with snug.Model(file, sets, ranks) as model:
+                    state = snug.read(model.write(model.start)).state()
+                self.assertEqual(state["punch"].n_cells, 64)
+                self.assertEqual(state["punch.top"].n_cells, 16)
 
     @needs("openmdao")
     def test_partials_of_hertz(self):
