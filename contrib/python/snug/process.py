@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import threading
+import weakref
 
 from .errors import Died, InputError, error_of
 
@@ -30,6 +31,8 @@ class Process:
         self.process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             text=True, encoding="utf-8", errors="replace", start_new_session=True)
+        # The program of a forgotten model ends, too: subprocess itself keeps the pipe open.
+        weakref.finalize(self, self.process.stdin.close)
         self.drain = threading.Thread(target=self.log.extend, args=(self.process.stderr,),
                                       daemon=True)
         self.drain.start()  # because a full pipe would block the program

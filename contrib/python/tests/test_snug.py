@@ -69,6 +69,12 @@ class Formulas(unittest.TestCase):
             with self.assertRaisesRegex(snug.Died, "no answer in 2.0 s"):
                 model.evaluate([0., -.875])
 
+    def test_the_process_of_a_forgotten_model_ends(self):
+        model = snug.Model("model.prm", program=FAKE)
+        process = model.process.process
+        del model
+        self.assertEqual(process.wait(10.), 0)
+
     def test_samples_of_processes_are_equal(self):
         self.model.set({"Body/Stiffness": 3.})
         designs = np.vstack([np.random.default_rng(1).uniform(-.7, .7, (20, 2)), [.95, 0.]])
