@@ -133,13 +133,13 @@ class Model:
         is_near = np.abs(x - inside) <= ROUND_OFF * (self.upper - self.lower)
         return np.where(is_near, inside, x).tolist()
 
-    def evaluate(self, x=None, gradients=False, start="cold", contact=False, errors=False):
+    def evaluate(self, x=None, gradients=False, start="cold", contact=False):
         """Return the Result of a design, the start of the model without x. `gradients` is True
         for all responses, or a list of their names. With start="cold" equal requests have equal
         bits; "warm" begins with the forces of earlier designs, as a search does."""
         keys = {"x": self.design(self.start if x is None else x), "start": start,
                 "gradients": gradients if isinstance(gradients, bool) else list(gradients),
-                "contact": contact, "errors": errors}
+                "contact": contact}
         if self.last is None or self.last[0] != keys:
             self.last = keys, Result(self.process.call("evaluate", **keys))
         return self.last[1]
@@ -195,10 +195,6 @@ class Model:
     def pair(self, x):
         """Search the contacts of a design anew."""
         self.change("pair", x=self.design(x))
-
-    def write(self, x):
-        """Write the files of the state of a design, and return their directory."""
-        return self.process.call("write", x=self.design(x))["directory"]
 
     def close(self):
         self.process.close()
