@@ -145,6 +145,13 @@ def check_partials(test, model, tolerance):
         test.assertLess(error, tolerance)
 
 
+def run_program(file, folder, *launcher):
+    sets = [part for name, value in HERTZ.items()
+            for part in ("--set", f"{name}={snug.model.text_of(value)}")]
+    subprocess.run([*launcher, os.environ["SNUG"], file, *sets, "--output", folder],
+                   check=True, stdout=subprocess.DEVNULL)
+
+
 @unittest.skipUnless("SNUG" in os.environ, "the variable SNUG is not set")
 class Program(unittest.TestCase):
     @needs("scipy")
@@ -154,10 +161,7 @@ class Program(unittest.TestCase):
         import snug.scipy
         file = HERE.parents[2] / "prm" / "hertz-3d-9.prm"
         with tempfile.TemporaryDirectory() as folder, snug.Model(file, HERTZ) as model:
-            sets = [part for name, value in HERTZ.items()
-                    for part in ("--set", f"{name}={snug.model.text_of(value)}")]
-            subprocess.run([os.environ["SNUG"], file, *sets, "--output", folder],
-                           check=True, stdout=subprocess.DEVNULL)
+            run_program(file, folder)
             volume = model.evaluate()["volume"]
             found = minimize(**snug.scipy.problem(model, "potential energy",
                                                   [("volume", volume, volume)]),
@@ -176,10 +180,9 @@ class Program(unittest.TestCase):
     def test_states_of_ranks(self):
         file = HERE.parents[2] / "prm" / "hertz-3d-9.prm"
         with tempfile.TemporaryDirectory() as folder:
-            for ranks in (1, 2):
-                sets = {**HERTZ, "Output directory": folder}
-                with snug.Model(file, sets, ranks) as model:
-                    state = snug.read(model.write(model.start)).state()
+            for ranks in ("1", "2"):
+                run_program(file, folder, "mpirun", "-np", ranks)
+                state = snug.read(folder).state()
                 self.assertEqual(state["punch"].n_cells, 64)
                 self.assertEqual(state["punch.top"].n_cells, 16)
 
