@@ -73,6 +73,7 @@ TEST(CommandLine, NamesWhatIsWrong)
   expect(error_of({"--estimate", "--ranks=two", "a.prm"}), "'--ranks' needs a whole number");
   expect(error_of({"--ranks=2", "a.prm"}), "'--ranks' requires --estimate");
   expect(error_of({"--advise", "--restart", "a.prm"}), "only one of");
+  expect(error_of({"--serve", "--validate", "a.prm"}), "only one of");
 }
 
 TEST(Failure, StatusFollowsTheKindOfError)
