@@ -130,6 +130,14 @@ class Serve(unittest.TestCase):
                 self.assertEqual(failed["error"]["kind"], kind)
                 self.assertEqual(of_solution(server.evaluate(AT)), first)
 
+    def test_cold_starts_know_no_earlier_designs(self):
+        with Server() as one, Server() as cold, Server() as warm:
+            first = of_solution(one.evaluate(AT))
+            cold.evaluate(ELSEWHERE)
+            self.assertEqual(of_solution(cold.evaluate(AT)), first)
+            warm.evaluate(ELSEWHERE)
+            self.assertNotEqual(of_solution(warm.evaluate(AT, start="warm")), first)
+
     def test_sets_entries(self):
         with Server() as server:
             first = server.evaluate(AT)["values"]
