@@ -165,7 +165,7 @@ private:
     const auto              force = scene::placed_force(text, dim);
     state::PlacedForce<dim> placed;
     placed.force = to_tensor<dim>(force.force);
-    placed.name  = "entry '" + section + entry + "' = '" + key + ": " + text + "'";
+    placed.entry = {section + entry, key + ": " + text};
     require_axial(mesh, section + entry, key, {placed.force, {}});
     placed.from = dealii::Point<dim>(to_tensor<dim>(force.at.empty() ? force.from : force.at));
     if (!force.to.empty())

@@ -16,10 +16,7 @@ std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scen
                           const std::string &boundary, const std::string &text) {
     const std::string face  = body + "." + boundary;
     const auto        where = find_face(scene, mesh, face);
-    return Spring<dim>{where.first, where.second,
-                       0,           {},
-                       {},          "entry '" + entry + "' = '" + boundary + ": " + text + "'",
-                       face};
+    return Spring<dim>{where.first, where.second, 0, {}, {}, {entry, boundary + ": " + text}, face};
   };
   for (const auto &body : scene.bodies)
     {

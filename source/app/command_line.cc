@@ -64,8 +64,12 @@ private:
       options.ranks = rank_number(value_of(argument, equals));
     else if (bool *flag = flag_called(name))
       {
-        if (equals != std::string::npos)
-          throw InputError("option '" + name + "' takes no value" + hint());
+        const bool takes_json = flag == &options.validate || flag == &options.print_parameters;
+        const bool json       = takes_json && argument.substr(name.size()) == "=json";
+        if (equals != std::string::npos && !json)
+          throw InputError("option '" + name + "' takes no value" +
+                           (takes_json ? " except 'json'" : "") + hint());
+        options.json |= json;
         *flag = true;
       }
     else
@@ -146,11 +150,12 @@ std::string usage()
     snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
                   [--petsc "-NAME VALUE ..."]... [--leave-out "KEYWORD, ..."]
     snug --advise FILE.prm | --estimate [--ranks N] FILE.prm | --serve FILE.prm
-    snug --translate FILE.inp | FILE.step
-    snug --validate FILE.prm | --print-parameters | --help | --version
+    snug --translate FILE.inp | FILE.step | FILE.json | FILE.prm
+    snug --validate[=json] FILE.prm | --print-parameters[=json] | --help | --version
 
 Shape optimization of elastic bodies in contact, with or without friction. FILE.prm may
-also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
+also be a deck of Abaqus or CalculiX (.inp), which is translated and run, or a model in
+JSON.
     mpirun -np 4 snug FILE.prm    run on 4 MPI ranks
 
     --set "Subsection/Entry=value"
@@ -166,7 +171,8 @@ also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
     --restart           continue an interrupted optimization
     --validate          check the file, list bodies and boundaries with areas and
                         bounding boxes, and contact pairs with gaps, without a solve;
-                        with --output the meshes are written to DIR/model
+                        with --output the meshes are written to DIR/model; =json prints
+                        this, or the error, as JSON (doc/json.md)
     --advise            solve the first state and list simplifications of the model
                         (symmetry, rigid bodies, needless cells) and defects (locking)
     --estimate          make the meshes and print the memory and the time of a run;
@@ -176,8 +182,10 @@ also be a deck of Abaqus or CalculiX (.inp), which is translated and run.
                         (doc/serve.md)
     --translate         print the parameter file of a deck of Abaqus or CalculiX, and
                         the keywords that are not translated, with their lines; or of
-                        the solids of a CAD file, to which loads are to be added
-    --print-parameters  print all entries, their defaults and meanings (Markdown)
+                        the solids of a CAD file, to which loads are to be added; or of
+                        a model, with all entries
+    --print-parameters  print all entries, their defaults and meanings (Markdown);
+                        =json prints a JSON Schema of models in JSON
     --help, --version
 
 Exit status: 0 complete; 2 the input is wrong; 3 the problem has no solution or was

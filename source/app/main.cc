@@ -5,6 +5,7 @@
 #include <snug/base/errors.h>
 #include <snug/base/petsc_handle.h>
 #include <snug/base/version.h>
+#include <snug/scene/json_scene.h>
 #include <snug/scene/read_scene.h>
 
 #include <deal.II/base/mpi.h>
@@ -60,7 +61,7 @@ bool answer(const app::Options &options, std::ostream &out)
         << PETSC_VERSION_MAJOR << '.' << PETSC_VERSION_MINOR << '.' << PETSC_VERSION_SUBMINOR
         << ")\n";
   else if (options.print_parameters)
-    scene::print_reference(out);
+    options.json ? scene::print_schema(out) : scene::print_reference(out);
   else
     return false;
   out << std::flush;

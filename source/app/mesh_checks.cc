@@ -1,7 +1,7 @@
 #include <snug/app/bounding_box.h>
 #include <snug/app/build_loads.h>
 #include <snug/app/mesh_checks.h>
-#include <snug/base/errors.h>
+#include <snug/base/statements.h>
 #include <snug/geometry/extents.h>
 #include <snug/geometry/imported_mesh.h>
 
@@ -39,7 +39,8 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
            << geometry::extents(boxes[1].lower, boxes[1].upper, size) << ") have a distance of "
            << gap << ", but the size of the larger body is only " << size
            << "; check the units of the meshes, 'Scale' and 'Shift'";
-      throw InputError(scene.file + ": entry 'Contact/Pairs': " + text.str());
+      throw Origins(scene.file, {})
+        .error("Contact/Pairs", pair.slave + ": " + pair.master, text.str());
     }
 }
 

@@ -89,6 +89,34 @@ MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<
 }
 
 template <int dim>
+io::Json bodies_part(const MeshSummary<dim> &summary)
+{
+  const auto corner = [](const dealii::Point<dim> &x) {
+    return std::vector<double>(x.begin_raw(), x.end_raw());
+  };
+  const auto corners = [&](const BoundingBox<dim> &box) {
+    return io::Json{corner(box.lower), corner(box.upper)};
+  };
+  io::Json part = io::Json::array();
+  for (const auto &body : summary.bodies)
+    {
+      io::Json regions = io::Json::array(), boundaries = io::Json::array();
+      for (const auto &region : body.regions)
+        regions.push_back(
+          {{"name", region.name}, {"cells", region.n_cells}, {"volume", region.volume}});
+      for (const auto &boundary : body.boundaries)
+        boundaries.push_back(
+          {{"name", boundary.name}, {"area", boundary.area}, {"box", corners(boundary.box)}});
+      part.push_back({{"name", body.name},
+                      {"cells", body.n_cells},
+                      {"box", corners(body.box)},
+                      {"regions", regions},
+                      {"boundaries", boundaries}});
+    }
+  return part;
+}
+
+template <int dim>
 void print(const MeshSummary<dim> &summary, std::ostream &out)
 {
   for (const auto &body : summary.bodies)
@@ -119,6 +147,7 @@ void print(const MeshSummary<dim> &summary, std::ostream &out)
   template double           area_of(unsigned int, const mesh::Surface<dim> &, const contact::Side &, \
                                     const mesh::Surface<dim>::Field &);                              \
   template MeshSummary<dim> summarize_mesh(const scene::Scene &, const mesh::BodyMesh<dim> &);       \
+  template io::Json         bodies_part(const MeshSummary<dim> &);                                   \
   template void             print(const MeshSummary<dim> &, std::ostream &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -213,6 +213,30 @@ void print_pairs(const ShapeProblem<dim> &problem)
 }
 
 template <int dim>
+io::Json pairs_part(const ShapeProblem<dim> &problem)
+{
+  io::Json part = io::Json::array();
+  for (const unsigned int c : problem.solver->positions())
+    {
+      const auto &contact = problem.solver->contact(c);
+      const auto  shares  = facing_shares(problem, c);
+      for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+        {
+          const auto &places = contact.places();
+          const auto &gaps   = contact.paired_gaps()[p];
+          part.push_back({{"name", contact.pairs()[p].name()},
+                          {"load_case", problem.solver->model().load_cases[c].name},
+                          {"contact_conditions",
+                           std::count_if(places.begin(), places.end(),
+                                         [p](const auto &place) { return place.pair == p; })},
+                          {"gap", {gaps.least, gaps.largest}},
+                          {"facing", std::min(1., shares[p])}});
+        }
+    }
+  return part;
+}
+
+template <int dim>
 void warn_of_model(const ShapeProblem<dim> &problem)
 {
   auto       &context = problem.context;
@@ -235,9 +259,10 @@ void warn_of_model(const ShapeProblem<dim> &problem)
   warn(load_warnings(*problem.mesh, solver.model()));
 }
 
-#define SNUG_INSTANTIATE(dim)                           \
-  template void print_pairs(const ShapeProblem<dim> &); \
-  template void warn_of_model(const ShapeProblem<dim> &);
+#define SNUG_INSTANTIATE(dim)                               \
+  template void     print_pairs(const ShapeProblem<dim> &); \
+  template io::Json pairs_part(const ShapeProblem<dim> &);  \
+  template void     warn_of_model(const ShapeProblem<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -17,8 +17,8 @@ deck::Translation translate_deck(scene::SceneSource &source, const bool must_be_
       if (must_be_deck)
         throw InputError(source.file +
                          ": option '--translate' needs a CAD file, which ends with .step, "
-                         ".stp, .iges, .igs, .brep or .brp, or a deck of Abaqus or CalculiX, "
-                         "which begins with a keyword such as *NODE");
+                         ".stp, .iges, .igs, .brep or .brp, a deck of Abaqus or CalculiX, which "
+                         "begins with a keyword such as *NODE, a model in JSON, or FILE.prm");
       return {};
     }
   try
@@ -35,7 +35,7 @@ deck::Translation translate_deck(scene::SceneSource &source, const bool must_be_
     }
   catch (const InputError &error)
     {
-      throw InputError(source.file + ": " + error.what());
+      throw InputError(error.what(), {source.file}, error.wrong());
     }
 }
 

@@ -4,6 +4,7 @@
 #include <snug/base/errors.h>
 #include <snug/base/version.h>
 #include <snug/feti/sparse_factor.h>
+#include <snug/scene/json_scene.h>
 
 #include <poll.h>
 #include <unistd.h>
@@ -49,16 +50,8 @@ public:
 
   void write(const Json &answer)
   {
-    if (context.rank() != 0)
-      return;
-    // Bytes that are no UTF-8 are replaced.
-    const auto text = answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-    for (std::size_t begin = 0; begin < text.size() && !is_closed;)
-      {
-        const auto n = ::write(answers, text.data() + begin, text.size() - begin);
-        is_closed    = n < 0 && errno != EINTR;
-        begin += std::max<ssize_t>(n, 0);
-      }
+    if (context.rank() == 0 && !is_closed)
+      is_closed = !io::write_line(answers, answer);
   }
 
 private:
@@ -93,24 +86,6 @@ private:
   std::string       buffer; ///< bytes behind the last line
   bool              is_closed = false;
 };
-
-/// Return the value of an entry as in a parameter file. @throws io::RequestError.
-std::string entry_text(const std::string &entry, const Json &value)
-{
-  if (value.is_string())
-    return value.get<std::string>();
-  if (value.is_number() || value.is_boolean())
-    return value.dump();
-  std::string text;
-  for (const Json &part : value.is_array() ? value : Json::array({nullptr}))
-    {
-      if (part.is_structured() || part.is_null())
-        throw io::RequestError("'entries': the value of '" + entry +
-                               "' must be a text, a number, true, false, or a list of these");
-      text += (text.empty() ? "" : ", ") + entry_text(entry, part);
-    }
-  return text;
-}
 
 /// Throw a io::RequestError for keys that the request does not have.
 void check_keys(const Json &request, const std::string &name)
@@ -210,7 +185,12 @@ private:
         sets.erase(std::remove_if(sets.begin(), sets.end(),
                                   [&](const auto &set) { return set.rfind(prefix, 0) == 0; }),
                    sets.end());
-        sets.push_back(prefix + entry_text(entry, value));
+        const auto found = scene::entry_value(value);
+        if (!found)
+          throw io::RequestError("'entries': the value of '" + entry +
+                                 "' must be a text, a number, true, false, or a list of numbers or "
+                                 "of texts");
+        sets.push_back(prefix + found->first);
       }
     const auto scene = scene::read_scene(next);
     feti::check_factor_options(scene.feti.factorization);

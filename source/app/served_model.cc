@@ -86,8 +86,9 @@ ServedModel<dim>::ServedModel(RunContext         &context,
   : context(context), scene(the_scene), meshes(mesh_texts(scene)), names(response_names(scene))
 {
   if (!scene.accuracy.targets.empty())
-    throw InputError(scene.file +
-                     ": entry 'Accuracy/Target' must be empty, because --serve takes one mesh");
+    throw Origins(scene.file, {})
+      .error("Accuracy/Target", to_text(scene.accuracy.targets),
+             "must be empty, because --serve takes one mesh");
   if (!scene.state_tolerance)
     scene.state_tolerance = search_tolerance<dim>(scene, names);
   has_earlier_mesh = earlier && earlier->meshes == meshes;

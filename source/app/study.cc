@@ -20,6 +20,7 @@
 #include <snug/io/summary.h>
 #include <snug/io/text_file.h>
 #include <snug/mesh_file/deck_text.h>
+#include <snug/scene/json_scene.h>
 #include <snug/scene/read_scene.h>
 
 #include <petscblaslapack.h>
@@ -97,13 +98,14 @@ void write_model(RunContext                                &context,
 }
 
 template <int dim>
-void validate_in(RunContext &context, const scene::Scene &scene, const bool writes)
+io::Json validate_in(RunContext &context, const scene::Scene &scene, const bool writes)
 {
   auto mesh = timed_mesh<dim>(context, scene);
   print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_notes(scene, context.out());
   print_cad_faces(scene, context.out(Verbosity::quiet));
-  print(summarize_mesh(scene, *mesh), context.out(Verbosity::quiet));
+  const auto summary = summarize_mesh(scene, *mesh);
+  print(summary, context.out(Verbosity::quiet));
   context.warn("mesh file", import_warnings(scene));
   context.warn("refinement", refinement_warnings(scene, *mesh));
   const ShapeProblem<dim> problem(context, scene, std::move(mesh));
@@ -118,6 +120,11 @@ void validate_in(RunContext &context, const scene::Scene &scene, const bool writ
     });
   if (writes)
     write_model(context, problem, positions);
+  return {{"valid", true},
+          {"file", scene.file},
+          {"bodies", bodies_part(summary)},
+          {"pairs", pairs_part(problem)},
+          {"warnings", io::warnings_part(context.warnings())}};
 }
 
 void print_program(RunContext &context)
@@ -256,12 +263,10 @@ void run_study(RunContext &context, const scene::Scene &given, const Options &op
   warn_of_unused_petsc_options(context);
 }
 
-void validate(RunContext &context, const scene::Scene &scene, const bool writes)
+io::Json validate(RunContext &context, const scene::Scene &scene, const bool writes)
 {
-  if (scene.dimension == 2)
-    validate_in<2>(context, scene, writes);
-  else
-    validate_in<3>(context, scene, writes);
+  return scene.dimension == 2 ? validate_in<2>(context, scene, writes)
+                              : validate_in<3>(context, scene, writes);
 }
 
 namespace {
@@ -280,17 +285,14 @@ std::string translate_cad(const Options &options, const RunContext &context)
   });
   return text;
 }
-} // namespace
 
-int run(const Options &options)
+/// Read the file of @p options and do what they ask. JSON goes to the descriptor @p answers.
+void run_file(const Options &options, RunContext &context, const int answers)
 {
-  reserve_blas_buffer();
-  const int  answers = options.serve ? divert_standard_output() : -1;
-  RunContext context(MPI_COMM_WORLD, std::cout);
   if (cad::is_cad_file(options.file))
     {
       context.out(Verbosity::quiet) << translate_cad(options, context) << std::flush;
-      return 0;
+      return;
     }
   scene::SceneSource source = {
     options.file,
@@ -299,11 +301,19 @@ int run(const Options &options)
     options.output,
     [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
     &context};
+  const bool is_prm = std::filesystem::path(options.file).extension() == ".prm";
+  if (options.translate && (is_prm || scene::is_json(source.text)))
+    {
+      std::ostringstream text;
+      scene::print(scene::read_scene(source), text);
+      context.out(Verbosity::quiet) << text.str() << std::flush;
+      return;
+    }
   const auto translation = translate_deck(source, options.translate);
   if (options.translate)
     {
       context.out(Verbosity::quiet) << source.text << std::flush;
-      return 0;
+      return;
     }
   const scene::Scene scene = scene::read_scene(source);
   report_translation(context, options, translation);
@@ -315,11 +325,33 @@ int run(const Options &options)
                          : estimate_in<3>(context, scene, options.ranks);
   else if (options.validate)
     {
-      validate(context, scene, !options.output.empty());
+      const auto found = validate(context, scene, !options.output.empty());
       context.out(Verbosity::quiet) << options.file << " is valid" << std::endl;
+      if (options.json && context.rank() == 0)
+        io::write_line(answers, found);
     }
   else
     run_study(context, scene, options);
+}
+} // namespace
+
+int run(const Options &options)
+{
+  reserve_blas_buffer();
+  const int  answers = options.serve || options.json ? divert_standard_output() : -1;
+  RunContext context(MPI_COMM_WORLD, std::cout);
+  try
+    {
+      run_file(options, context, answers);
+    }
+  catch (const std::exception &error)
+    {
+      if (options.json && context.rank() == 0)
+        io::write_line(answers, {{"valid", false},
+                                 {"file", options.file},
+                                 {"error", io::error_part(error)}});
+      throw;
+    }
   return 0;
 }
 } // namespace snug::app

@@ -6,16 +6,35 @@
 
 namespace snug {
 namespace {
-Form in_range(const std::function<bool(double)> &contains, const std::string &range)
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Form in_range(const Interval &interval, const std::string &range)
 {
   Form form;
-  form.contains = contains;
+  form.interval = interval;
   form.range    = range;
   return form;
 }
 
 /// Entries by the names that they had in earlier versions, see CHANGELOG.md.
 const TextMap former_names = {{"Mesh file", "File"}};
+
+/// Return whether a value of the type @p given in a JSON file may be that of an entry.
+bool accepts(const ValueType of_entry, const ValueType given)
+{
+  switch (of_entry)
+    {
+      case ValueType::text:
+        return given == ValueType::text || given == ValueType::number ||
+               given == ValueType::boolean;
+      case ValueType::whole_number:
+        return given == ValueType::number;
+      case ValueType::whole_numbers:
+        return given == ValueType::numbers;
+      default:
+        return given == of_entry;
+    }
+}
 
 /// Assign @p text, where the former name of a choice stands for its name.
 /// @throws InputError unless the text has the form of the entry.
@@ -33,8 +52,8 @@ void assign(const Entries::Description &entry, const Origins &origins, std::stri
     {}
   const bool is_whole = entry.form.allowed.find("whole number") != std::string::npos;
   throw origins.error(entry.path(), text,
-                      "must be " + entry.form.allowed + did_you_mean(text, choices) +
-                        (is_whole ? "" : decimal_point_hint(text)));
+                      "must be " + entry.form.allowed + (is_whole ? "" : decimal_point_hint(text)),
+                      suggestion(text, choices));
 }
 
 /// Return the error of the numbers of an entry; "" if there is no error.
@@ -47,7 +66,7 @@ failure_reason(const Form &form, const std::vector<double> &numbers, const unsig
     return "must have " + to_text(dimension) + " " + form.per_dimension + ", one per dimension";
   for (const double number : numbers)
     {
-      if (form.contains && !form.contains(number))
+      if (!form.interval.contains(number))
         return form.range;
       if (std::abs(number) > largest)
         return "must be at most " + to_text(largest) + " in absolute value";
@@ -86,36 +105,34 @@ Form with_meanings(Form form, const Names &meanings)
 
 Form positive()
 {
-  return in_range([](const double v) { return v > 0.; }, "must be positive");
+  return in_range({0., infinity, false}, "must be positive");
 }
 
 Form at_least(const double lower, const std::string &range)
 {
-  return in_range([=](const double v) { return v >= lower; },
-                  range.empty() ? "must be at least " + to_text(lower) : range);
+  return in_range({lower}, range.empty() ? "must be at least " + to_text(lower) : range);
 }
 
 Form at_most(const double upper)
 {
-  return in_range([=](const double v) { return v <= upper; }, "must be at most " + to_text(upper));
+  return in_range({-infinity, upper}, "must be at most " + to_text(upper));
 }
 
 Form between(const double lower, const double upper)
 {
-  return in_range([=](const double v) { return v >= lower && v <= upper; },
-                  "must lie between " + to_text(lower) + " and " + to_text(upper));
+  return in_range({lower, upper}, "must lie between " + to_text(lower) + " and " + to_text(upper));
 }
 
 Form above(const double lower, const double upper)
 {
-  return in_range([=](const double v) { return v > lower && v <= upper; },
+  return in_range({lower, upper, false},
                   "must be above " + to_text(lower) +
                     (std::isfinite(upper) ? " and at most " + to_text(upper) : ""));
 }
 
 Form inside(const double lower, const double upper)
 {
-  return in_range([=](const double v) { return v > lower && v < upper; },
+  return in_range({lower, upper, false, false},
                   "must be above " + to_text(lower) + " and below " + to_text(upper));
 }
 
@@ -153,7 +170,11 @@ void Entries::set(const Statement &statement)
   });
   if (entry == list.end())
     return reject_unknown(statement);
-  assign(*entry, Origins(statement.origin, {}), statement.value);
+  const Origins origins("", {statement});
+  if (statement.type && !accepts(entry->form.type, *statement.type))
+    throw origins.error(statement.path(), statement.value,
+                        "must be " + to_text(entry->form.type) + " in JSON");
+  assign(*entry, origins, statement.value);
 }
 
 void Entries::check(const Origins &origins, const unsigned int dimension) const
@@ -187,21 +208,29 @@ void Entries::reject_unknown(const Statement &statement) const
         elsewhere = entry.section.empty() ? "; it belongs outside of subsections"
                                           : "; it belongs to subsection '" + entry.section + "'";
     }
-  const std::string origin = statement.origin + ": ";
+  const auto did_you_mean = [](const std::string &name) {
+    return name.empty() ? "" : "; did you mean '" + name + "'?";
+  };
   if (names.empty())
-    throw InputError(origin + "unknown subsection '" + quotable(statement.section) + "'" +
-                     did_you_mean(statement.section, section_names) +
-                     " (bodies, materials and shapes need a name in "
-                     "'Bodies', 'Materials' or 'Shapes')");
+    {
+      const auto section = suggestion(statement.section, section_names);
+      throw InputError("unknown subsection '" + quotable(statement.section) + "'" +
+                         did_you_mean(section) +
+                         " (bodies, materials and shapes need a name in "
+                         "'Bodies', 'Materials' or 'Shapes')",
+                       statement.origin, {statement.section, "", "", section});
+    }
   if (statement.name.empty())
     return;
   const auto former = former_names.find(statement.name);
+  const auto name   = elsewhere.empty() ? suggestion(statement.name, names) : "";
   if (former != former_names.end() &&
       std::find(names.begin(), names.end(), former->second) != names.end())
     elsewhere = "; it was renamed to '" + former->second + "'";
-  throw InputError(origin + "unknown entry '" + quotable(statement.path()) + "' = '" +
-                   quotable(statement.value) + "'" +
-                   (elsewhere.empty() ? did_you_mean(statement.name, names) : elsewhere));
+  throw InputError("unknown entry '" + quotable(statement.path()) + "' = '" +
+                     quotable(statement.value) + "'" +
+                     (elsewhere.empty() ? did_you_mean(name) : elsewhere),
+                   statement.origin, {statement.path(), statement.value, "", name});
 }
 
 void Entries::print(std::ostream &out) const

@@ -6,6 +6,18 @@
 #include <sstream>
 
 namespace snug {
+std::string Place::text() const
+{
+  return file + (line > 0 ? ", line " + std::to_string(line) : "") + (file.empty() ? "" : ": ");
+}
+
+InputError::InputError(const WrongEntry &wrong, const Place &place)
+  : InputError("entry '" + wrong.entry + "' = '" + wrong.value + "': " + wrong.allowed +
+                 (wrong.suggestion.empty() ? "" : "; did you mean '" + wrong.suggestion + "'?"),
+               place,
+               wrong)
+{}
+
 bool is_out_of_memory(const std::exception &error)
 {
   return dynamic_cast<const std::bad_alloc *>(&error) != nullptr ||

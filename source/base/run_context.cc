@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <streambuf>
 
 namespace snug {
@@ -166,12 +167,39 @@ Kind kind_of(const std::exception &error)
   return is_out_of_memory(error) ? memory : other;
 }
 
+/// Return the message of an error, with a line for each member of an InputError.
+std::string packed(const std::exception &error)
+{
+  const auto *input = dynamic_cast<const InputError *>(&error);
+  if (input == nullptr)
+    return one_line(error);
+  const auto &wrong = input->wrong();
+  std::string lines;
+  for (std::string line : {input->text(), input->place().file, std::to_string(input->place().line),
+                           wrong.entry, wrong.value, wrong.allowed, wrong.suggestion})
+    {
+      std::replace(line.begin(), line.end(), '\n', ' ');
+      lines += line + "\n";
+    }
+  return lines;
+}
+
+InputError unpacked(const std::string &lines)
+{
+  std::istringstream       in(lines);
+  std::vector<std::string> member(7);
+  for (auto &line : member)
+    std::getline(in, line);
+  return InputError(member[0], {member[1], static_cast<unsigned int>(std::stoul(member[2]))},
+                    {member[3], member[4], member[5], member[6]});
+}
+
 [[noreturn]] void throw_again(int kind, const std::string &message)
 {
   switch (kind)
     {
       case input:
-        throw InputError(message);
+        throw unpacked(message);
       case solve:
         throw SolveError(message);
       case tangled:
@@ -196,7 +224,7 @@ void throw_collectively(MPI_Comm communicator, const std::function<void()> &work
     {
       kind = kind_of(error);
       if (kind != memory) // a message would need memory
-        message = one_line(error);
+        message = packed(error);
     }
   catch (...)
     {

@@ -10,23 +10,22 @@ std::string SectionCheck::path(const std::string &entry) const
 
 InputError SectionCheck::error(const std::string &entry,
                                const std::string &value,
-                               const std::string &allowed) const
+                               const std::string &allowed,
+                               const std::string &suggestion) const
 {
-  return origins.error(path(entry), value, allowed);
+  return origins.error(path(entry), value, allowed, suggestion);
 }
 
 InputError SectionCheck::placed(const InputError  &error,
                                 const std::string &entry,
                                 const std::string &value) const
 {
-  const std::string message = error.what(), begin = "entry '";
-  const auto        quote = message.find('\'', begin.size());
-  if (message.rfind(begin, 0) != 0 || quote == std::string::npos)
-    return this->error(entry, value, message);
-  std::string named = message.substr(begin.size(), quote - begin.size());
-  if (named.rfind(section + "/", 0) != 0)
-    named = path(named);
-  return InputError(origins.of(named) + begin + named + message.substr(quote));
+  auto wrong = error.wrong();
+  if (wrong.entry.empty())
+    return this->error(entry, value, error.what());
+  if (wrong.entry.rfind(section + "/", 0) != 0)
+    wrong.entry = path(wrong.entry);
+  return InputError(wrong, origins.of(wrong.entry));
 }
 
 void SectionCheck::require_default(const Entries                  &given,

@@ -81,17 +81,17 @@ unsigned int edit_distance(const std::string &a, const std::string &b)
 class StatementParser
 {
 public:
-  explicit StatementParser(const std::string &name) : file(name) {}
+  explicit StatementParser(const std::string &name) { place.file = name; }
 
   void read(const std::string &line, const unsigned int number)
   {
-    place = file + ", line " + std::to_string(number);
+    place.line = number;
     std::string rest;
     if (line.empty())
       return;
     // Reject a zero byte, because messages, which quote the text, would end there.
     if (line.find('\0') != std::string::npos)
-      throw InputError(place + ": contains a null byte; not a text file");
+      throw InputError("contains a null byte; not a text file", place);
     if (begins_with(line, "subsection", rest) && !rest.empty())
       {
         sections.push_back(tidy(rest));
@@ -108,16 +108,17 @@ public:
           {joined(sections), tidy(rest.substr(0, equals)), trim(rest.substr(equals + 1)), place});
       }
     else
-      throw InputError(place + ": '" + quotable(line) +
-                       "' must read 'set NAME = VALUE', "
-                       "'subsection NAME', 'end' or '# comment'");
+      throw InputError("'" + quotable(line) +
+                         "' must read 'set NAME = VALUE', "
+                         "'subsection NAME', 'end' or '# comment'",
+                       place);
   }
 
   std::vector<Statement> finish()
   {
     if (!sections.empty())
-      throw InputError(opened_at.back() + ": 'subsection " + quotable(sections.back()) +
-                       "' has no 'end'");
+      throw InputError("'subsection " + quotable(sections.back()) + "' has no 'end'",
+                       opened_at.back());
     return std::move(statements);
   }
 
@@ -125,13 +126,14 @@ private:
   void close()
   {
     if (sections.empty())
-      throw InputError(place + ": 'end' without a 'subsection'");
+      throw InputError("'end' without a 'subsection'", place);
     sections.pop_back();
     opened_at.pop_back();
   }
 
-  std::string              file, place;
-  std::vector<std::string> sections, opened_at;
+  Place                    place;
+  std::vector<std::string> sections;
+  std::vector<Place>       opened_at;
   std::vector<Statement>   statements;
 };
 } // namespace
@@ -163,8 +165,10 @@ Statement parse_override(const std::string &argument)
   const std::string path  = argument.substr(0, equals);
   const auto        slash = path.rfind('/');
   const bool        top   = slash == std::string::npos;
-  return {top ? "" : tidy(path.substr(0, slash)), tidy(top ? path : path.substr(slash + 1)),
-          trim(argument.substr(equals + 1)), "--set"};
+  return {top ? "" : tidy(path.substr(0, slash)),
+          tidy(top ? path : path.substr(slash + 1)),
+          trim(argument.substr(equals + 1)),
+          {"--set"}};
 }
 
 Origins::Origins(const std::string &name, const std::vector<Statement> &statements) : file(name)
@@ -173,18 +177,18 @@ Origins::Origins(const std::string &name, const std::vector<Statement> &statemen
     places[statement.path()] = statement.origin;
 }
 
-std::string Origins::of(const std::string &path) const
+Place Origins::of(const std::string &path) const
 {
   const auto found = places.find(path);
-  if (found != places.end())
-    return found->second + ": ";
-  return file.empty() ? "" : file + ": ";
+  return found != places.end() ? found->second : Place{file};
 }
 
-InputError
-Origins::error(const std::string &path, const std::string &value, const std::string &allowed) const
+InputError Origins::error(const std::string &path,
+                          const std::string &value,
+                          const std::string &allowed,
+                          const std::string &suggestion) const
 {
-  return InputError(of(path) + bad_entry(quotable(path), quotable(value), allowed).what());
+  return InputError(WrongEntry{quotable(path), quotable(value), allowed, suggestion}, of(path));
 }
 
 std::string quotable(const std::string &text)
@@ -196,7 +200,7 @@ std::string quotable(const std::string &text)
   return text.size() > most ? line + "..." : line;
 }
 
-std::string did_you_mean(const std::string &word, const std::vector<std::string> &known)
+std::string suggestion(const std::string &word, const std::vector<std::string> &known)
 {
   const auto worse = [&word](const std::string &a, const std::string &b) {
     return edit_distance(word, a) < edit_distance(word, b);
@@ -205,6 +209,6 @@ std::string did_you_mean(const std::string &word, const std::vector<std::string>
   if (best == known.end() ||
       edit_distance(word, *best) > std::max<std::size_t>(2, best->size() / 3))
     return "";
-  return "; did you mean '" + *best + "'?";
+  return *best;
 }
 } // namespace snug

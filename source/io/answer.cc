@@ -1,7 +1,10 @@
 #include <snug/base/errors.h>
 #include <snug/io/answer.h>
 
-#include <regex>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 
 namespace snug::io {
 namespace {
@@ -43,22 +46,36 @@ std::string status(const state::ContactPoint &point)
 }
 } // namespace
 
+bool write_line(const int descriptor, const Json &answer)
+{
+  const auto text = answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (std::size_t begin = 0; begin < text.size();)
+    {
+      const auto n = ::write(descriptor, text.data() + begin, text.size() - begin);
+      if (n < 0 && errno != EINTR)
+        return false;
+      begin += std::max<ssize_t>(n, 0);
+    }
+  return true;
+}
+
 Json error_part(const std::exception &error)
 {
-  const std::string message = one_line(error), kind = kind_of(error);
-  Json              part = {{"kind", kind}, {"message", message}};
-  std::smatch       match;
-  // the form of Origins::error()
-  static const std::regex of_entry("(?:(.*?)(?:, line (\\d+))?: )?entry '(.*?)' = '(.*?)': (.*)");
-  if (kind != "input" || !std::regex_match(message, match, of_entry))
+  Json        part  = {{"kind", kind_of(error)}, {"message", one_line(error)}};
+  const auto *input = dynamic_cast<const InputError *>(&error);
+  if (input == nullptr)
     return part;
-  if (match[1].matched)
-    part["file"] = match[1].str();
-  if (match[2].matched)
-    part["line"] = std::stoul(match[2].str());
-  part["entry"]   = match[3].str();
-  part["value"]   = match[4].str();
-  part["allowed"] = match[5].str();
+  const auto add = [&part](const char *key, const std::string &text) {
+    if (!text.empty())
+      part[key] = text;
+  };
+  add("file", input->place().file);
+  if (input->place().line > 0)
+    part["line"] = input->place().line;
+  add("entry", input->wrong().entry);
+  add("value", input->wrong().value);
+  add("allowed", input->wrong().allowed);
+  add("suggestion", input->wrong().suggestion);
   return part;
 }
 

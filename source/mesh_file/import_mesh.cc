@@ -276,12 +276,10 @@ auto with_entry(const geometry::BodyMeshParameters &parameters, const Work &work
     }
   catch (const InputError &error)
     {
-      // Messages that begin with an entry (Mesh regions, Surface) are complete. All others concern
-      // the file.
-      const std::string message = printable(error.what());
-      if (message.rfind("entry '", 0) == 0)
-        throw InputError(message);
-      throw bad_entry("File", parameters.file, message);
+      // Errors of entries (Mesh regions, Surface) are complete. All others concern the file.
+      if (!error.wrong().entry.empty())
+        throw;
+      throw bad_entry("File", parameters.file, printable(error.what()));
     }
 }
 } // namespace

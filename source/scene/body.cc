@@ -43,22 +43,23 @@ void check_regions(const SectionCheck &section, const Body &body)
 {
   const auto regions = section.dimension == 2 ? regions_in<2>(body) : regions_in<3>(body);
   const auto names   = names_of(regions);
-  const auto require = [&](const bool good, const std::string &allowed) {
-    section.require(good, "Materials", text_of_materials(body.materials), allowed);
+  const auto require = [&](const bool good, const std::string &allowed, const std::string &meant) {
+    section.require(good, "Materials", text_of_materials(body.materials), allowed, meant);
   };
   for (const auto &[name, material] : body.materials)
     {
       const auto found = std::find(names.begin(), names.end(), name);
       require(name.empty() || found != names.end(),
               "'" + quotable(name) + "' is not a region of '" + body.name + "'; the regions are " +
-                to_text(names) + did_you_mean(name, names));
+                to_text(names),
+              suggestion(name, names));
       require(name.empty() || regions[found - names.begin()].n_cells > 0,
-              "the region '" + name + "' has no cells");
+              "the region '" + name + "' has no cells", "");
     }
   for (const auto &region : regions)
     require(region.n_cells == 0 || body.materials.count("") > 0 ||
               body.materials.count(region.name) > 0,
-            "the region '" + region.name + "' has no material");
+            "the region '" + region.name + "' has no material", "");
 }
 
 void check_materials(const Scene &scene, const SectionCheck &section, const Body &body)
@@ -72,7 +73,8 @@ void check_materials(const Scene &scene, const SectionCheck &section, const Body
     section.require(std::find(known.begin(), known.end(), material) != known.end(), "Materials",
                     text_of_materials(body.materials),
                     "'" + quotable(material) + "' is not one of the 'Materials' of the scene" +
-                      (known.empty() ? "" : ", " + to_text(known)) + did_you_mean(material, known));
+                      (known.empty() ? "" : ", " + to_text(known)),
+                    suggestion(material, known));
   check_regions(section, body);
 }
 

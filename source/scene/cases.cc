@@ -79,7 +79,7 @@ std::map<std::string, unsigned int> numbers_of_cases(const std::vector<Statement
             n = 0;
           }
         if (n == 0 || n > most_cases)
-          throw Origins(statement.origin, {})
+          throw Origins("", {statement})
             .error(statement.path(), statement.value,
                    "must be an integer between 1 and " + to_text(most_cases));
         result[statement.section.substr(section_prefix.size())] = n;
@@ -95,13 +95,15 @@ std::vector<Statement> with_cases(const std::vector<Statement> &statements)
   for (Statement statement : statements)
     {
       const bool is_load_case = statement.section.rfind(section_prefix, 0) == 0;
+      if (is_load_case && statement.type == ValueType::text)
+        statement.type.reset(); // it may be a formula of the case number instead of a number
       const auto of = numbers.find(is_load_case ? statement.section.substr(section_prefix.size())
                                                 : std::string());
       if (is_load_case && of != numbers.end())
         {
           for (unsigned int i = 0; i < of->second && statement.name != cases_entry; ++i)
             result.push_back({statement.section + suffix(i, of->second), statement.name,
-                              value_in_case(statement.value, i), statement.origin});
+                              value_in_case(statement.value, i), statement.origin, statement.type});
           continue;
         }
       if (statement.section.empty() && statement.name == list_entry)

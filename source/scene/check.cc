@@ -229,7 +229,8 @@ void require_boundary(const SectionCheck &section,
   const auto known = boundary_names(body, section.dimension);
   section.require(std::find(known.begin(), known.end(), boundary) != known.end(), entry, value,
                   "'" + quotable(boundary) + "' is not a boundary of '" + body.name +
-                    "'; the boundaries are " + to_text(known) + did_you_mean(boundary, known));
+                    "'; the boundaries are " + to_text(known),
+                  suggestion(boundary, known));
 }
 
 void require_face(const Scene        &scene,
@@ -245,8 +246,8 @@ void require_face(const Scene        &scene,
                   "'" + quotable(face) + "' must read 'body.boundary'" +
                     (scene.obstacles.empty() ? "" : " or be an obstacle in 'Obstacles'"));
   section.require(index < scene.bodies.size(), entry, value,
-                  "there is no body '" + quotable(name) + "'; the bodies are " + to_text(known) +
-                    did_you_mean(name, known));
+                  "there is no body '" + quotable(name) + "'; the bodies are " + to_text(known),
+                  suggestion(name, known));
   require_boundary(section, entry, value, scene.bodies[index], boundary);
 }
 

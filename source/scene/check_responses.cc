@@ -37,8 +37,7 @@ void check_places(const Scene &scene, const SectionCheck &section, const Paramet
                   "there is no contact to measure in the scene");
   section.require(response.pair.empty() ||
                     std::find(known.begin(), known.end(), response.pair) != known.end(),
-                  "Pair", response.pair,
-                  "there is no such pair" + did_you_mean(response.pair, known));
+                  "Pair", response.pair, "there is no such pair", suggestion(response.pair, known));
 }
 
 bool has_density(const Scene &scene, const Body &body)
@@ -72,8 +71,8 @@ Parameters require_response(const Scene        &scene,
   const auto known    = response_names(scene);
   const auto response = response_called(scene, name);
   section.require(response.has_value(), entry, value,
-                  "'" + name + "' is not a response; the responses are " + to_text(known) +
-                    did_you_mean(name, known));
+                  "'" + name + "' is not a response; the responses are " + to_text(known),
+                  suggestion(name, known));
   section.require(!response->name.empty() || !response->reads("Face"), entry, value,
                   "'" + name +
                     "' needs a subsection Response with 'Point' or 'Face', and a name "

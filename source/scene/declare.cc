@@ -11,8 +11,10 @@ void add_names(Entries                  &entries,
                const std::vector<Named> &list,
                const std::string        &meaning)
 {
+  Form form = allowed("names separated by commas");
+  form.type = ValueType::names;
   entries.add(entry, {[&list]() { return to_text(names_of(list)); }, [](const std::string &) {}},
-              allowed("names separated by commas"), meaning);
+              form, meaning);
 }
 
 /// Give access to a degree, which is 0 for auto.

@@ -3,6 +3,7 @@
 #include <snug/mesh_file/import_mesh.h>
 #include <snug/scene/cases.h>
 #include <snug/scene/check.h>
+#include <snug/scene/json_scene.h>
 #include <snug/scene/read_scene.h>
 
 #include <nlohmann/json.hpp>
@@ -66,16 +67,17 @@ bool try_to_read(const std::string &file, const TextSource source, std::string &
 /// Return all statements that take effect, in the order in which they are applied.
 std::vector<Statement> statements_of(const SceneSource &source)
 {
-  auto statements = parse_statements(source.text, source.file);
+  auto statements = is_json(source.text) ? parse_json(source.text, source.file)
+                                         : parse_statements(source.text, source.file);
   for (const auto &set : source.sets)
     statements.push_back(parse_override(set));
   if (!source.output_directory.empty())
-    statements.push_back({"", "Output directory", source.output_directory, "--output"});
+    statements.push_back({"", "Output directory", source.output_directory, {"--output"}});
   // Reject values that printing and reading again would change.
   for (const auto &statement : statements)
     if (statement.value.find_first_of("#\n\r") != std::string::npos ||
         (!statement.value.empty() && statement.value.back() == '\\'))
-      throw Origins(statement.origin, {})
+      throw Origins("", {statement})
         .error(statement.path(), statement.value,
                "must not contain '#' or line ends, nor end with '\\'");
   return with_cases(statements);
@@ -310,20 +312,28 @@ void print(const Scene &scene, std::ostream &out)
   entries.print(out);
 }
 
-void print_reference(std::ostream &out)
+Entries reference_entries(Scene &scene)
 {
-  Scene                  scene;
   std::vector<Statement> names;
   for (const auto *entry : {"Bodies", "Materials", "Obstacles", "Load cases", "Responses"})
-    names.push_back({"", entry, "NAME", ""});
+    names.push_back({"", entry, "NAME", {}});
   make_named(names, scene);
   scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});
   Entries entries;
   declare(entries, scene);
-  // Lists of names contain the names that the reference needs, and have no default.
-  const auto initial = [](const std::string &text) {
-    return text.empty() || text == "NAME" || text == "SLAVE: MASTER" ? "" : "`" + text + "`";
-  };
+  return entries;
+}
+
+std::string reference_default(const Entries::Description &entry)
+{
+  return entry.initial == "NAME" || entry.initial == "SLAVE: MASTER" ? "" : entry.initial;
+}
+
+void print_reference(std::ostream &out)
+{
+  Scene      scene;
+  const auto entries = reference_entries(scene);
+  const auto quoted  = [](const std::string &text) { return text.empty() ? "" : "`" + text + "`"; };
   out << "# Parameters\n\n"
          "`snug --print-parameters` prints this page. Any consistent system of units can be used: "
          "with mm, N and MPa, energies are in N mm.\n";
@@ -338,7 +348,7 @@ void print_reference(std::ostream &out)
              "|---|---|---|---|\n";
       for (const auto &entry : entries.descriptions())
         if (entry.section == section.name)
-          out << "| `" << entry.name << "` | " << initial(entry.initial) << " | "
+          out << "| `" << entry.name << "` | " << quoted(reference_default(entry)) << " | "
               << table_cell(entry.form.allowed.size() > longest_choice ? "a name in the list below"
                                                                        : entry.form.allowed)
               << " | " << table_cell(entry.meaning) << " |\n";

@@ -85,10 +85,10 @@ Gradients<dim> energy_gradients(const LoadCases<dim>         &load_cases,
       problem.solver.restore(problem.state);
       const bool exact = problem.parameters.derivatives == Derivatives::exact;
       if (needs_solve(*response, problem.solver.has_friction()))
-        throw InputError(std::string("entry 'Gradient/Method' = 'energy': the response has no "
-                                     "gradient without a solve") +
-                         (response->stationary() ? ", because friction has no potential" : "") +
-                         "; use 'adjoint' or 'direct'");
+        throw bad_entry("Gradient/Method", "energy",
+                        std::string("the response has no gradient without a solve") +
+                          (response->stationary() ? ", because friction has no potential" : "") +
+                          "; use 'adjoint' or 'direct'");
       auto field = response->partials(problem.solver, problem.state).positions;
       if (response->stationary() && exact)
         state::add_constraint_gradient(problem.solver, problem.state, field);

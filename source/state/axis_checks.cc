@@ -24,10 +24,9 @@ void check_radii(const mesh::BodyMesh<dim> &mesh, const std::vector<std::string>
     if (smallest[body] < 0.)
       {
         std::ostringstream text;
-        text << "entry 'Model' = 'axisymmetric': body " << body_names[body]
-             << " reaches x = " << smallest[body]
+        text << "body " << body_names[body] << " reaches x = " << smallest[body]
              << ", but x is the radius and must not be negative";
-        throw InputError(text.str());
+        throw bad_entry("Model", "axisymmetric", text.str());
       }
 }
 

@@ -14,7 +14,7 @@ template <int dim>
 typename contact::NearestFace<dim>::Found face_at(const mesh::Surface<dim>        &surface,
                                                   const contact::NearestFace<dim> &search,
                                                   const dealii::Point<dim>        &x,
-                                                  const std::string               &name)
+                                                  const std::pair<std::string, std::string> &entry)
 {
   const auto   found    = search.closest(x);
   const auto  &nodes    = surface.faces()[found.face].nodes;
@@ -24,9 +24,9 @@ typename contact::NearestFace<dim>::Found face_at(const mesh::Surface<dim>      
   if (distance > most_distance * size)
     {
       std::ostringstream text;
-      text << name << ": the point (" << x << ") must be on the boundary, whose nearest point is ("
+      text << "the point (" << x << ") must be on the boundary, whose nearest point is ("
            << found.point.position << ")";
-      throw InputError(text.str());
+      throw bad_entry(entry.first, entry.second, text.str());
     }
   return found;
 }
@@ -34,9 +34,9 @@ typename contact::NearestFace<dim>::Found face_at(const mesh::Surface<dim>      
 template contact::NearestFace<2>::Found face_at(const mesh::Surface<2> &,
                                                 const contact::NearestFace<2> &,
                                                 const dealii::Point<2> &,
-                                                const std::string &);
+                                                const std::pair<std::string, std::string> &);
 template contact::NearestFace<3>::Found face_at(const mesh::Surface<3> &,
                                                 const contact::NearestFace<3> &,
                                                 const dealii::Point<3> &,
-                                                const std::string &);
+                                                const std::pair<std::string, std::string> &);
 } // namespace snug::state

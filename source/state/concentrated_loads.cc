@@ -82,7 +82,7 @@ public:
   typename contact::NearestFace<dim>::Found at(const dealii::Point<dim> &x,
                                                const PlacedForce<dim>   &placed) const
   {
-    return face_at(surface, *search, x, placed.name);
+    return face_at(surface, *search, x, placed.entry);
   }
 
   const mesh::Surface<dim>     surface;
@@ -183,7 +183,7 @@ forces_along_edge(const mesh::Surface<3>    &surface,
       }
   });
   if (result.empty())
-    throw InputError(placed.name + ": the boundaries have no common edge");
+    throw bad_entry(placed.entry.first, placed.entry.second, "the boundaries have no common edge");
   return result;
 }
 } // namespace

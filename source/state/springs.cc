@@ -74,7 +74,8 @@ void Springs<dim>::add_sides(const supports::Spring<dim> &spring, const SurfaceF
             {
               const double k = spring.stiffness(dealii::Point<dim>(points[q]));
               if (k < 0.)
-                throw InputError(spring.name + ": the stiffness must not be negative");
+                throw bad_entry(spring.entry.first, spring.entry.second,
+                                "the stiffness must not be negative");
               if (k > 0.)
                 places.push_back(
                   {static_cast<unsigned int>(groups.size()) - 1, face, gauss[q].value, 1., q, k});
@@ -91,7 +92,7 @@ void Springs<dim>::add_point(const supports::Spring<dim> &spring)
     return;
   const contact::NearestFace<dim> search(surface, faces_of(surface, spring), shape,
                                          surface.reference_positions());
-  const auto                      found = face_at(surface, search, *spring.place, spring.name);
+  const auto                      found = face_at(surface, search, *spring.place, spring.entry);
   groups.push_back({&spring, {}});
   places.push_back({static_cast<unsigned int>(groups.size()) - 1, found.face,
                     shape.at(found.point.xi).value, 1., 0, k});

@@ -132,8 +132,8 @@ void StateProblem<dim>::for_each_position(
     catch (const InputError &error)
       {
         const auto first = std::find(problem_of_case.begin(), problem_of_case.end(), i);
-        throw InputError(error.what() +
-                         place_of(model, narrow<unsigned int>(first - problem_of_case.begin())));
+        const auto where = place_of(model, narrow<unsigned int>(first - problem_of_case.begin()));
+        throw InputError(error.text() + where, error.place(), error.wrong());
       }
 }
 

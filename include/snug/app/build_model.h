@@ -17,7 +17,7 @@ auto with_file_context(const scene::Scene &scene, const Make &make)
     }
   catch (const InputError &error)
     {
-      throw InputError(scene.file + ": " + error.what());
+      throw InputError(error.what(), {scene.file}, error.wrong());
     }
 }
 

@@ -21,6 +21,7 @@ struct Options
   bool                     translate        = false;
   bool                     serve            = false;
   bool                     print_parameters = false;
+  bool                     json             = false; ///< form of what these two print
   bool                     help             = false;
   bool                     version          = false;
 };

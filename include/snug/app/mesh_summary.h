@@ -2,6 +2,7 @@
 #define snug_app_mesh_summary_h
 
 #include <snug/app/bounding_box.h>
+#include <snug/io/answer.h>
 #include <snug/mesh/surface.h>
 #include <snug/scene/scene.h>
 
@@ -49,6 +50,10 @@ double area_of(unsigned int                              degree,
 /// Return the summary of the refined meshes of a scene. Collective.
 template <int dim>
 MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh);
+
+/// Return {name, cells, box, regions, boundaries} of each body.
+template <int dim>
+io::Json bodies_part(const MeshSummary<dim> &summary);
 
 /// Print a line for each body, for each region of a body with several regions, and for each
 /// boundary.

@@ -2,6 +2,7 @@
 #define snug_app_model_report_h
 
 #include <snug/app/shape_problem.h>
+#include <snug/io/answer.h>
 
 #include <iosfwd>
 
@@ -15,6 +16,12 @@ void print_notes(const scene::Scene &scene, std::ostream &out);
 /// Verbosity = debug alone. Collective.
 template <int dim>
 void print_pairs(const ShapeProblem<dim> &problem);
+
+/// Return {name, load_case, contact_conditions, gap, facing} of the contact pairs in all positions:
+/// the least and the largest gap [length], and the share of the slave side that faces the other
+/// side. Collective.
+template <int dim>
+io::Json pairs_part(const ShapeProblem<dim> &problem);
 
 /// Warn of doubtful contact pairs, planes of symmetry and loads. Collective.
 template <int dim>

@@ -13,15 +13,41 @@
 #include <vector>
 
 namespace snug {
-/// Values that an entry accepts, as functions and as text.
+/// Interval of numbers.
+struct Interval
+{
+  double lower     = -std::numeric_limits<double>::infinity();
+  double upper     = std::numeric_limits<double>::infinity();
+  bool   has_lower = true, has_upper = true; ///< whether the bound is in the interval
+
+  bool contains(double value) const
+  {
+    return (has_lower ? value >= lower : value > lower) &&
+           (has_upper ? value <= upper : value < upper);
+  }
+};
+
+inline Names names(ValueType)
+{
+  return {{"a text, a number, true or false"},
+          {"a number"},
+          {"a whole number"},
+          {"true or false"},
+          {"a list of numbers"},
+          {"a list of whole numbers"},
+          {"a list of texts"}};
+}
+
+/// Values that an entry accepts.
 struct Form
 {
-  std::string                 allowed  = {}; ///< completes "must be "; "": follows from the type
-  std::vector<std::string>    choices  = {}; ///< if the entry is a choice
-  TextMap                     renamed  = {}; ///< choices by the names that they had earlier
-  Names                       meanings = {}; ///< of values, or of forms of values
-  std::function<bool(double)> contains = {}; ///< checks every number of the value; empty: no check
-  std::string                 range    = {}; ///< "must be positive", if contains() is false
+  ValueType                type     = ValueType::text;
+  std::string              allowed  = {}; ///< completes "must be "; "": follows from the type
+  std::vector<std::string> choices  = {}; ///< if the entry is a choice
+  TextMap                  renamed  = {}; ///< choices by the names that they had earlier
+  Names                    meanings = {}; ///< of values, or of forms of values
+  Interval                 interval = {}; ///< contains every number of the value
+  std::string              range    = {}; ///< "must be positive", if it does not
   /// "numbers": one per dimension, or an empty list; "": any number of numbers
   std::string per_dimension = {};
 };
@@ -81,6 +107,25 @@ const char *allowed_of()
   if constexpr (std::is_same_v<T, std::vector<std::string>>)
     return "names separated by commas";
   return "text";
+}
+
+/// Return the type of an entry whose variable has the type T.
+template <typename T>
+ValueType type_of()
+{
+  if constexpr (std::is_same_v<T, double>)
+    return ValueType::number;
+  if constexpr (std::is_same_v<T, unsigned int>)
+    return ValueType::whole_number;
+  if constexpr (std::is_same_v<T, bool>)
+    return ValueType::boolean;
+  if constexpr (std::is_same_v<T, std::vector<double>>)
+    return ValueType::numbers;
+  if constexpr (std::is_same_v<T, std::vector<unsigned int>>)
+    return ValueType::whole_numbers;
+  if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    return ValueType::names;
+  return ValueType::text;
 }
 
 /// Return the range of @p form to be appended to the values of a type: ", at least 1".
@@ -162,6 +207,7 @@ public:
   {
     if (form.allowed.empty())
       form.allowed = std::string(allowed_of<T>()) + range_of(form);
+    form.type = type_of<T>();
     if (std::is_same_v<T, bool>)
       form.choices = {"true", "false"};
     add(name, snug::access(value), form, meaning);

@@ -22,17 +22,20 @@ public:
   std::string path(const std::string &entry) const;
 
   /// Return the error of an entry, with its origin.
-  InputError
-  error(const std::string &entry, const std::string &value, const std::string &allowed) const;
+  InputError error(const std::string &entry,
+                   const std::string &value,
+                   const std::string &allowed,
+                   const std::string &suggestion = "") const;
 
   /// Throw the error of an entry unless the entry is @p good.
   void require(bool               good,
                const std::string &entry,
                const std::string &value,
-               const std::string &allowed) const
+               const std::string &allowed,
+               const std::string &suggestion = "") const
   {
     if (!good)
-      throw error(entry, value, allowed);
+      throw error(entry, value, allowed, suggestion);
   }
 
   /// Return an error "entry 'Box cells' = ..." of a module with origin and section of the entry

@@ -4,10 +4,23 @@
 #include <snug/base/errors.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace snug {
+/// Types of the values of entries in JSON.
+enum class ValueType
+{
+  text, ///< a string, or a number, true or false
+  number,
+  whole_number,
+  boolean,
+  numbers, ///< a list
+  whole_numbers,
+  names
+};
+
 /**
  * One `set NAME = VALUE` of a parameter file or of the command line, or the opening of a
  * subsection (empty name). The statement stores its origin. Errors that checks across entries
@@ -18,7 +31,9 @@ struct Statement
   std::string section; ///< "" at the top, "A/B" for nested subsections
   std::string name;
   std::string value;
-  std::string origin; ///< "scene.prm, line 7" or "--set"
+  Place       origin;
+  /// type of a value of a JSON file; none: the text decides
+  std::optional<ValueType> type = {};
 
   std::string path() const;
 };
@@ -42,24 +57,26 @@ public:
 
   Origins(const std::string &file, const std::vector<Statement> &statements);
 
-  /// Return "scene.prm, line 7: ", or "scene.prm: " for an entry that was not set.
-  std::string of(const std::string &path) const;
+  /// Return the place of an entry, or the file if the entry was not set.
+  Place of(const std::string &path) const;
 
-  /// Return the error "<origin>: entry '<path>' = '<value>': <allowed>", one line.
-  InputError
-  error(const std::string &path, const std::string &value, const std::string &allowed) const;
+  /// Return the error of an entry, one line.
+  InputError error(const std::string &path,
+                   const std::string &value,
+                   const std::string &allowed,
+                   const std::string &suggestion = "") const;
 
 private:
-  std::string                        file;
-  std::map<std::string, std::string> places;
+  std::string                  file;
+  std::map<std::string, Place> places;
 };
 
 /// Return @p text as a part of a message: one line without control characters, cut after 80
 /// characters.
 std::string quotable(const std::string &text);
 
-/// Return "; did you mean 'x'?" if one of @p known is close to @p word, else "".
-std::string did_you_mean(const std::string &word, const std::vector<std::string> &known);
+/// Return the name of @p known that is close to @p word, or "" if none is.
+std::string suggestion(const std::string &word, const std::vector<std::string> &known);
 } // namespace snug
 
 #endif

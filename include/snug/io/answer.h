@@ -24,8 +24,12 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Return {kind, message} of an error. Errors of entries also have the members entry, value,
-/// allowed and, if they are known, file and line.
+/// Write an answer in one line to a descriptor. Return false if nobody reads it. Bytes that are no
+/// UTF-8 are replaced.
+bool write_line(int descriptor, const Json &answer);
+
+/// Return {kind, message} of an error. Errors of the input also have those of the members file,
+/// line, entry, value, allowed and suggestion that are known.
 Json error_part(const std::exception &error);
 
 /// Return a list of {code, text, value, bound}.

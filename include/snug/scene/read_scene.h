@@ -1,6 +1,7 @@
 #ifndef snug_scene_read_scene_h
 #define snug_scene_read_scene_h
 
+#include <snug/base/entries.h>
 #include <snug/base/run_context.h>
 #include <snug/scene/scene.h>
 
@@ -52,6 +53,14 @@ Scene read_scene(const SceneSource &source);
 
 /// Write every entry as a parameter file that reads back to the same scene.
 void print(const Scene &scene, std::ostream &out);
+
+/// Return the entries of subsections called NAME, with defaults and meanings. They are bound to
+/// @p scene.
+Entries reference_entries(Scene &scene);
+
+/// Return the default of an entry of reference_entries(). Lists of names have none, but contain the
+/// names that the reference needs.
+std::string reference_default(const Entries::Description &entry);
 
 /// Write all entries with defaults, allowed values and meaning, as Markdown.
 void print_reference(std::ostream &out);

@@ -41,8 +41,8 @@ struct PlacedForce
   dealii::Point<dim>                from;  ///< the point, or the first end of the line
   std::optional<dealii::Point<dim>> to;    ///< the other end of the line
   /// index of the boundary of the body whose common edge with the loaded one is the line
-  std::optional<unsigned int> along;
-  std::string                 name; ///< as the user wrote it, for messages
+  std::optional<unsigned int>         along;
+  std::pair<std::string, std::string> entry; ///< path and value, for messages
 };
 
 /// Dead loads on one boundary. Pressure and traction [force / length^2] are functions of the

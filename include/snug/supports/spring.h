@@ -18,7 +18,7 @@ struct Spring
   /// stiffness there [force / length]
   std::function<double(const dealii::Point<dim> &)> stiffness;
   std::optional<dealii::Point<dim>>                 place; ///< reference position of the point
-  std::string                                       name;  ///< as the user wrote it, for messages
+  std::pair<std::string, std::string>               entry; ///< path and value, for messages
   std::string                                       face;  ///< "body.boundary", for results
 };
 } // namespace snug::supports

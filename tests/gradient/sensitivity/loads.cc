@@ -80,13 +80,13 @@ TEST(Gradient, ForcesAtPointsAndAlongLines3D)
   auto  given                                     = curved_scene<3>(3, 3, 0.04);
   auto &foundation                                = given.bodies[1];
   foundation.loads[face_index(0, 1)].concentrated = {
-    {dealii::Point<3>(-0.4, 0.1, 0.2), dealii::Point<3>(1., 0.2, 0.4), {}, {}, "point"},
+    {dealii::Point<3>(-0.4, 0.1, 0.2), dealii::Point<3>(1., 0.2, 0.4), {}, {}, {"", "point"}},
     {dealii::Point<3>(0.3, 0.1, -0.6),
      dealii::Point<3>(1., 0.1, 0.2),
      dealii::Point<3>(1., 0.9, 0.7),
      {},
-     "line"},
-    {dealii::Point<3>(0.1, 0., -0.5), {}, {}, face_index(2, 1), "edge"}};
+     {"", "line"}},
+    {dealii::Point<3>(0.1, 0., -0.5), {}, {}, face_index(2, 1), {"", "edge"}}};
   foundation.refined_below = 0.45;
   GradientScene<3> scene(given, 0.05, "foundation.right", 0);
   check_derivatives(scene);

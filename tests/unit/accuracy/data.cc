@@ -90,7 +90,7 @@ TEST(Unresolved, AreTheCellsUnderAllFormulas)
   model.supports.push_back({0, face_index(1, 1), 0, {step}, ""});
   EXPECT_EQ(found(model), missed + "prescribed displacement on punch.top");
   model = problem.model;
-  model.springs.push_back({1, face_index(1, 0), 0, step, {}, "", ""});
+  model.springs.push_back({1, face_index(1, 0), 0, step, {}, {}, ""});
   EXPECT_EQ(found(model), missed + "stiffness of the spring on foundation.bottom");
   model                                     = problem.model;
   model.load_cases[0].bodies[1].temperature = step;

@@ -49,6 +49,8 @@ TEST(CommandLine, TakesQuestionsWithoutAFile)
   EXPECT_TRUE(parse({"--version"}).version);
   EXPECT_TRUE(parse({"--print-parameters"}).print_parameters);
   EXPECT_TRUE(parse({"--validate", "a.prm"}).validate);
+  EXPECT_FALSE(parse({"--validate", "a.prm"}).json);
+  EXPECT_TRUE(parse({"--validate=json", "a.prm"}).json);
   EXPECT_TRUE(parse({"--advise", "a.prm"}).advise);
   const auto estimate = parse({"--estimate", "--ranks", "16", "a.prm"});
   EXPECT_TRUE(estimate.estimate);

@@ -34,12 +34,12 @@ TEST(Statements, HaveSectionsValuesAndLines)
   std::vector<std::string> found;
   for (const auto &statement : statements)
     if (!statement.name.empty())
-      found.push_back(statement.path() + "|" + statement.value + "|" + statement.origin);
+      found.push_back(statement.path() + "|" + statement.value + "|" + statement.origin.text());
   ASSERT_EQ(found.size(), 3u);
-  EXPECT_EQ(found[0], "A thing|1|a.prm, line 1");
+  EXPECT_EQ(found[0], "A thing|1|a.prm, line 1: ");
   EXPECT_EQ(found[1].substr(0, 11), "One/Two/B|x");
   EXPECT_NE(found[1].find("y=z|"), std::string::npos) << found[1];
-  EXPECT_EQ(found[2], "One/C||a.prm, line 7");
+  EXPECT_EQ(found[2], "One/C||a.prm, line 7: ");
 }
 
 TEST(Statements, OfTheCommandLineHaveTheSamePaths)
@@ -61,6 +61,6 @@ TEST(Statements, ErrorsContainTheLine)
 TEST(Statements, SimilarNamesAreProposed)
 {
   const std::vector<std::string> known = {"Young's modulus", "Poisson's ratio", "Density"};
-  EXPECT_EQ(did_you_mean("Youngs modulus", known), "; did you mean 'Young's modulus'?");
-  EXPECT_EQ(did_you_mean("Friction coefficient", known), "");
+  EXPECT_EQ(suggestion("Youngs modulus", known), "Young's modulus");
+  EXPECT_EQ(suggestion("Friction coefficient", known), "");
 }

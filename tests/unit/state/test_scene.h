@@ -265,7 +265,7 @@ public:
                                      component,
                                      [k = k](const dealii::Point<dim> &) { return k; },
                                      {},
-                                     "spring",
+                                     {"Springs", "spring"},
                                      "spring"});
         for (auto support : body.prescribed)
           {
