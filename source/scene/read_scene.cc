@@ -126,7 +126,18 @@ bool belongs_to_pair(const Statement &statement)
   return statement.section.rfind("Pair ", 0) == 0;
 }
 
-/// Assign all statements. Pairs inherit the entries of subsection Contact, except entries of
+/// Assign the statements outside of subsections. A misspelt list of names is then an unknown entry,
+/// rather than names that are missing.
+void assign_top(const std::vector<Statement> &statements, Scene &scene)
+{
+  Entries entries;
+  declare(entries, scene);
+  for (const auto &statement : statements)
+    if (statement.section.empty())
+      entries.set(statement);
+}
+
+/// Assign all other statements. Pairs inherit the entries of subsection Contact, except entries of
 /// their own subsection, independent of the order of the statements.
 void assign(const std::vector<Statement> &statements, Scene &scene)
 {
@@ -134,7 +145,7 @@ void assign(const std::vector<Statement> &statements, Scene &scene)
     Entries entries;
     declare(entries, scene);
     for (const auto &statement : statements)
-      if (!belongs_to_pair(statement))
+      if (!statement.section.empty() && !belongs_to_pair(statement))
         entries.set(statement);
   }
   for (auto &pair : scene.contact.pairs)
@@ -291,6 +302,7 @@ Scene read_scene(const SceneSource &source)
   Scene         scene;
   scene.file = source.file;
   make_named(statements, scene);
+  assign_top(statements, scene);
   check_names(scene, origins);
   assign(statements, scene);
   complete(scene);

@@ -33,7 +33,7 @@ def run(*arguments):
 
 def entries_of(path):
     """Return {section: {entry: text}} of a parameter file."""
-    text = re.sub(r"\\\n", " ", re.sub(r"#.*", "", path.read_text(encoding="utf-8")))
+    text = re.sub(r"\\\n\s*", "", re.sub(r"#.*", "", path.read_text(encoding="utf-8")))
     sections, section = {"": {}}, ""
     for line in text.splitlines():
         word, _, rest = line.strip().partition(" ")
