@@ -2,7 +2,8 @@
 
 from .errors import DesignFailed, Died, InputError, RequestError, SnugError
 from .model import Model, Result
+from .modes import heights
 from .reader import Run, read
 
 __all__ = ["DesignFailed", "Died", "InputError", "Model", "RequestError", "Result", "Run",
-           "SnugError", "read"]
+           "SnugError", "heights", "read"]

@@ -1,6 +1,7 @@
 """A model, whose designs are evaluated by a process of the program."""
 
 import concurrent.futures
+import html
 import os
 import pathlib
 import queue
@@ -22,6 +23,16 @@ def text_of(value):
     if isinstance(value, (list, tuple, np.ndarray)):
         return ", ".join(map(text_of, value))
     return repr(float(value)) if isinstance(value, np.floating) else str(value)
+
+
+def progress(rows, n):
+    """Return the rows with a bar of their progress on terminals and in notebooks, if tqdm is
+    installed."""
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return rows
+    return tqdm(rows, total=n, unit="design", disable=None)
 
 
 class Result:
@@ -53,6 +64,18 @@ class Result:
         values = ", ".join(f"{name}={value:.6g}" if value is not None else f"{name}=None"
                            for name, value in self.values.items())
         return f"Result({values}, certificate={self.certificate:.1e}, drift={self.drift:.2g})"
+
+    def _repr_html_(self):
+        rows = "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{'none' if value is None else f'{value:.6g}'}</td>"
+            + (f"<td>{np.linalg.norm(self.gradients[name]):.3g}</td>" if self.gradients else "")
+            + "</tr>" for name, value in self.values.items() if not self.gradients
+            or name in self.gradients)
+        head = "<th>norm of the gradient</th>" if self.gradients else ""
+        notes = [f"relative error {self.certificate:.1e}", f"drift {self.drift:.2g} faces",
+                 *(part["text"] for part in self.answer.get("warnings", []))]
+        return (f"<table><tr><th>response</th><th>value</th>{head}</tr>{rows}</table>"
+                f"<p>{html.escape('; '.join(notes))}</p>")
 
     def contact(self, case=0):
         """Return the table of the slave nodes of a load case, given by its number or name."""
@@ -118,8 +141,10 @@ class Model:
             for key in ("lower", "upper", "start", "scale"))
 
     def __repr__(self):
-        return (f"Model({os.fspath(self.file)!r}: {len(self.variables)} design variables, "
-                f"responses {', '.join(self.responses)})")
+        names = [f"{part['name']} [{part['unit']}]" if part.get("unit") else part["name"]
+                 for part in self.about["responses"]]
+        return (f"Model({os.fspath(self.file)!r}: {self.about.get('unknowns', 0):,} unknowns, "
+                f"{len(self.variables)} design variables, responses {', '.join(names)})")
 
     def design(self, x):
         """Return x as a list, clipped into the bounds where it leaves them by round-off."""
@@ -147,7 +172,7 @@ class Model:
     def sample(self, X, processes=1, **keys):
         """Return a table of the designs in the rows of X, their responses, and the column
         `failure`, which is empty or a message. With several processes the numbers are the same,
-        because each evaluation starts without a history."""
+        because each evaluation starts without a history. With tqdm a bar shows the progress."""
         X = np.atleast_2d(np.asarray(X, float))
         others = [self.copy() for _ in range(min(processes, len(X)) - 1)]
         free = queue.SimpleQueue()
@@ -165,7 +190,7 @@ class Model:
 
         try:
             with concurrent.futures.ThreadPoolExecutor(1 + len(others)) as pool:
-                rows = list(pool.map(row, X))
+                rows = list(progress(pool.map(row, X), len(X)))
         finally:
             for model in others:
                 model.close()

@@ -42,6 +42,7 @@ class Formulas(unittest.TestCase):
         again = self.model.evaluate(np.array([.5, .25]), gradients=["energy"], contact=True)
         self.assertIs(again, result)
         self.assertLess(len(repr(result)) + len(repr(self.model)), 200)
+        self.assertIn("<tr><td>energy</td><td>1.5</td><td>3.58</td></tr>", result._repr_html_())
 
     def test_errors(self):
         with self.assertRaises(snug.RequestError):
