@@ -58,8 +58,12 @@ with snug.Model(SCENE, SETTINGS) as model:
         """Return the largest weighted nodal pressure of a profile of drops z."""
         return max(weights * [case["max_pressure"] for case in model.evaluate(z).load_cases])
 
-    # Minimize the variable y[3] [GPa], which no peak exceeds.
-    start, before = np.array([1., .9, 3.]), model.process.n
+    start, step = np.array([1., .9, 3.]), 1e-5 * np.array([1., 2., 3.])
+    difference = (peaks(start + step)[0] - peaks(start - step)[0]) / 2.
+    error = np.abs(peaks(start)[1] @ step - difference).max() / np.abs(difference).max()
+    assert error < 1e-3, "gradients must agree with differences"
+
+    before = model.process.n  # minimize the variable y[3] [GPa], which no peak exceeds
     found = minimize(lambda y: (y[3], np.array([0., 0., 0., 1.])), jac=True, method="SLSQP",
                      x0=[*start, peaks(start)[0].max() / 1e3], options={"ftol": 1e-5},
                      bounds=[(.5, 3.), (.3, 1.), (1., 5.), (0., None)], constraints={

@@ -61,7 +61,10 @@ def optimum(rows):
             return (p.mean() + 3. * deviation,
                     g.mean(axis=0) + 3. * (p - p.mean()) @ g / len(p) / deviation)
 
-        found = minimize(value, np.ones(4), jac=True, method="SLSQP", bounds=[(-4.5, 9.5)] * 4,
+        start, step = np.ones(4), 1e-4 * np.arange(1., 5.)
+        difference = (value(start + step)[0] - value(start - step)[0]) / 2.
+        assert abs(value(start)[1] @ step / difference - 1.) < 1e-3, "the gradient must be exact"
+        found = minimize(value, start, jac=True, method="SLSQP", bounds=[(-4.5, 9.5)] * 4,
                          options={"ftol": 1e-6})  # the bounds leave room for the errors
     requests = sum(model.process.n for model in models)
     for model in models:

@@ -67,7 +67,7 @@ print(f"{requests} requests; volume / (K force distance) - 1 = {volume - 1.:.1e}
       f"shape - Johnson's = {shape:.2%}; mu / exact = {rate:.4f}")
 assert abs(volume - 1.) < 1e-5, "the volume must be that of the law"
 assert shape < .02 and np.abs(p - FORCE).max() < .01, "the pressure must become uniform"
-assert abs(rate - 1.) < .02, "the rate must be that of the slowest mode"
+assert abs(rate - 1.) < .2 * x[1], "the rate must be that of the slowest mode up to the mesh size"
 
 if "--picture" in sys.argv:
     import snug.plot
