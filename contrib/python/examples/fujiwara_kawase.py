@@ -60,23 +60,24 @@ with snug.Model(SCENE, SETTINGS) as model:
 
     start, step = np.array([1., .9, 3.]), 1e-5 * np.array([1., 2., 3.])
     difference = (peaks(start + step)[0] - peaks(start - step)[0]) / 2.
+    # Relative to the largest slope, as differences contain the errors of the states.
     error = np.abs(peaks(start)[1] @ step - difference).max() / np.abs(difference).max()
     assert error < 1e-3, "gradients must agree with differences"
 
-    before = model.process.n  # minimize the variable y[3] [GPa], which no peak exceeds
+    # Minimize the variable y[3] [GPa], which no peak exceeds.
     found = minimize(lambda y: (y[3], np.array([0., 0., 0., 1.])), jac=True, method="SLSQP",
                      x0=[*start, peaks(start)[0].max() / 1e3], options={"ftol": 1e-5},
                      bounds=[(.5, 3.), (.3, 1.), (1., 5.), (0., None)], constraints={
                          "type": "ineq", "fun": lambda y: y[3] - peaks(y[:3])[0] / 1e3,
                          "jac": lambda y: np.column_stack([-peaks(y[:3])[1] / 1e3, weights ** 0])})
-    best, requests = found.x[:3], model.process.n - before
+    best = found.x[:3]
     norm, known = peaks(best)[0].max(), peaks(KNOWN)[0].max()
     end = 8.8543  # where the curvature of Lundberg's profile is that of the end radius of 6 mm
     lundberg = (-A * np.log(1. - (np.minimum(near, end) / HALF) ** 2)
                 + 2. * A * end / (HALF ** 2 - end ** 2) * np.maximum(near - end, 0.)
                 + np.maximum(near - end, 0.) ** 2 / 12. - np.maximum(near - HALF, 0.) ** 2 / 12.)
     print(f"K1 = {best[0]:.3f}, K2 = {best[1]:.3f}, zm = {1e3 * best[0] * A * best[2]:.1f} um in "
-          f"{requests} requests; largest norm {norm:.0f} MPa, without gradients {known:.0f} MPa")
+          f"{found.nfev} evaluations; largest norm {norm:.0f} MPa, without gradients {known:.0f} MPa")
     table = {"straight": 0. * places, "Lundberg": lundberg, "without gradients": drop(KNOWN, near),
              "SLSQP": drop(best, near)}
     pressures = {name: largest(z) for name, z in table.items()}
