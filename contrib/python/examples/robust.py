@@ -22,7 +22,7 @@ import snug
 
 LEVELS, N, FRESH = (2, 8, 16) if "--quick" in sys.argv else (3, 16, 64)
 SCENE = {
-    "Dimension": 2, "Bodies": "punch, block", "Responses": "peak",
+    "Dimension": 2, "Bodies": ["punch", "block"], "Responses": ["peak"],
     "Body punch": {"Box corner": [-1, 0], "Box size": [2, 1], "Box cells": [4, 2],
                    "Refine where": "0.3 - y", "Local refinements": LEVELS, "Young's modulus": 1000},
     "Body block": {"Box corner": [-5, -5], "Box size": [10, 5], "Box cells": [10, 5],

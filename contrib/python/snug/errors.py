@@ -14,10 +14,11 @@ class RequestError(SnugError, ValueError):
 
 
 class InputError(SnugError, ValueError):
-    """The model is wrong: `file`, `line`, `entry`, `value` and `allowed`, None where unknown."""
+    """The model is wrong: `file`, `line`, `entry`, `value`, `allowed` and `suggestion`, None where
+    unknown."""
 
     kind = "input"
-    file = line = entry = value = allowed = None
+    file = line = entry = value = allowed = suggestion = None
 
 
 class DesignFailed(SnugError):

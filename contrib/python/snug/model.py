@@ -1,6 +1,7 @@
 """A model, whose designs are evaluated by a process of the program."""
 
 import concurrent.futures
+import json
 import html
 import os
 import pathlib
@@ -116,17 +117,11 @@ class Model:
 
     @classmethod
     def from_dict(cls, scene, **arguments):
-        """Return the model of {"Task": "state", "Body upper": {"Box cells": [3, 2]}, ..}."""
-        lines = []
-        for name, value in sorted(scene.items(), key=lambda item: isinstance(item[1], dict)):
-            if not isinstance(value, dict):
-                lines.append(f"set {name} = {text_of(value)}")
-                continue
-            lines += [f"subsection {name}",
-                      *(f"  set {entry} = {text_of(part)}" for entry, part in value.items()), "end"]
+        """Return the model of {"Task": "state", "Body upper": {"Box cells": [3, 2]}, ..}, a model
+        in JSON, whose numbers and lists may be those of numpy."""
         folder = tempfile.TemporaryDirectory(prefix="snug-")
-        file = pathlib.Path(folder.name, "model.prm")
-        file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        file = pathlib.Path(folder.name, "model.json")
+        file.write_text(json.dumps(scene, default=lambda value: value.tolist()), encoding="utf-8")
         model = cls(file, **arguments)
         model.folder = folder
         return model

@@ -2,6 +2,7 @@
 """The Python package against formulas, and with the variable SNUG against the program."""
 
 import importlib.util
+import json
 import os
 import pathlib
 import subprocess
@@ -88,12 +89,11 @@ class Formulas(unittest.TestCase):
         for name in ("face[0]", "energy", "size", "failure"):
             self.assertEqual(list(one[name][:-1]), list(two[name][:-1]))
 
-    def test_dictionaries_become_parameter_files(self):
+    def test_dictionaries_become_models_in_json(self):
         scene = {"Body a": {"Box cells": [3, 2], "Fixed": True}, "Task": "state"}
         with snug.Model.from_dict(scene, program=FAKE) as model:
-            self.assertEqual(model.file.read_text().splitlines(),
-                             ["set Task = state", "subsection Body a", "  set Box cells = 3, 2",
-                              "  set Fixed = true", "end"])
+            self.assertEqual(json.loads(model.file.read_text()),
+                             {"Task": "state", "Body a": {"Box cells": [3, 2], "Fixed": True}})
 
     @needs("scipy")
     def test_scipy(self):
