@@ -7,36 +7,45 @@
 
 namespace snug::app {
 namespace {
-/// Return whether all ranks call this function within @p patience seconds.
-bool all_arrive(MPI_Comm communicator, const double patience)
+void print(const std::exception &error)
 {
-  using Clock          = std::chrono::steady_clock;
-  const auto  deadline = Clock::now() + std::chrono::duration<double>(patience);
-  MPI_Request request;
-  int         arrived = 0;
-  MPI_Ibarrier(communicator, &request);
-  while (true)
-    {
-      MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-      if (arrived || Clock::now() > deadline)
-        return arrived;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+  std::cerr << "snug: " + one_line(error) + "\n" << std::flush;
 }
 
 int fail(MPI_Comm own_communicator, const std::exception &error, const double patience)
 {
-  const int  status   = exit_status(error);
-  const bool together = all_arrive(own_communicator, patience);
-  int        rank;
+  fail_together(own_communicator, &error, patience);
+  int rank;
   MPI_Comm_rank(own_communicator, &rank);
-  if (rank == 0 || !together)
-    std::cerr << "snug: " + one_line(error) + "\n" << std::flush;
-  if (!together)
-    MPI_Abort(MPI_COMM_WORLD, status);
-  return status;
+  if (rank == 0)
+    print(error);
+  return exit_status(error);
 }
 } // namespace
+
+void fail_together(MPI_Comm communicator, const std::exception *error, const double patience)
+{
+  using Clock          = std::chrono::steady_clock;
+  const auto  deadline = Clock::now() + std::chrono::duration<double>(patience);
+  int         n_failed = error ? 1 : 0, size, arrived = 0;
+  MPI_Request request;
+  MPI_Comm_size(communicator, &size);
+  MPI_Iallreduce(MPI_IN_PLACE, &n_failed, 1, MPI_INT, MPI_SUM, communicator, &request);
+  while (MPI_Test(&request, &arrived, MPI_STATUS_IGNORE), !arrived)
+    {
+      if (error && Clock::now() > deadline)
+        break;
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  if (arrived && (n_failed == 0 || n_failed == size))
+    return;
+  if (error)
+    {
+      print(*error);
+      MPI_Abort(MPI_COMM_WORLD, exit_status(*error));
+    }
+  MPI_Barrier(communicator); // until another rank ends this one
+}
 
 int exit_status(const std::exception &error)
 {

@@ -23,9 +23,9 @@ measured(const ShapeProblem<dim> &problem)
 
 template <int dim>
 std::vector<MeshError> mesh_errors(const ShapeProblem<dim>                  &problem,
-                                   const typename ShapeProblem<dim>::States &states)
+                                   const typename ShapeProblem<dim>::States &states,
+                                   const accuracy::Estimate                  asked)
 {
-  const auto             asked = problem.scene.accuracy.estimate;
   std::vector<MeshError> result;
   if (asked == accuracy::Estimate::none)
     return result;
@@ -96,11 +96,12 @@ double objective_error(const scene::Scene           &scene,
   return sum;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                       \
-  template std::vector<MeshError>   mesh_errors(const ShapeProblem<dim> &,          \
-                                                const ShapeProblem<dim>::States &); \
-  template std::vector<std::string> described(const ShapeProblem<dim> &,            \
-                                              const ShapeProblem<dim>::States &,    \
+#define SNUG_INSTANTIATE(dim)                                                      \
+  template std::vector<MeshError>   mesh_errors(const ShapeProblem<dim> &,         \
+                                                const ShapeProblem<dim>::States &, \
+                                                accuracy::Estimate);               \
+  template std::vector<std::string> described(const ShapeProblem<dim> &,           \
+                                              const ShapeProblem<dim>::States &,   \
                                               const std::vector<MeshError> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

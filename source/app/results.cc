@@ -8,6 +8,7 @@
 #include <snug/io/mesh_export.h>
 #include <snug/io/qp_export.h>
 #include <snug/io/text_file.h>
+#include <snug/scene/read_scene.h>
 #include <snug/state/symmetry_planes.h>
 #include <snug/state/validity_checks.h>
 
@@ -15,7 +16,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <ostream>
+#include <sstream>
 
 namespace snug::app {
 std::vector<std::string> output_directories(const scene::Scene &scene)
@@ -45,6 +46,18 @@ void remove_earlier_results(const RunContext &context, const scene::Scene &scene
   for (const auto &body : scene.bodies)
     if (context.rank() == 0)
       std::filesystem::remove(solid_file(scene, body), ignored);
+}
+
+void prepare_output(const RunContext &context, const scene::Scene &scene)
+{
+  for (const auto &directory : output_directories(scene))
+    io::make_output_directory(context, directory);
+  throw_collectively(context.communicator(), [&]() {
+    std::ostringstream text;
+    scene::print(scene, text);
+    if (context.rank() == 0)
+      io::write_text_file(scene.output_directory + "/parameters.prm", text.str());
+  });
 }
 
 template <int dim>
@@ -177,7 +190,7 @@ std::vector<MeshError> Results<dim>::estimate(const States &states)
 {
   try
     {
-      auto errors = mesh_errors(*problem, states);
+      auto errors = mesh_errors(*problem, states, problem->scene.accuracy.estimate);
       for (const std::string &line : described(*problem, states, errors))
         problem->context.out(Verbosity::quiet) << line << std::endl;
       return errors;

@@ -1,3 +1,4 @@
+#include <snug/app/failure.h>
 #include <snug/app/interrupt.h>
 #include <snug/app/serve.h>
 #include <snug/app/served_model.h>
@@ -92,14 +93,15 @@ void check_keys(const Json &request, const std::string &name)
 {
   static const std::map<std::string, std::vector<std::string>> keys = {
     {"describe", {}},
-    {"evaluate", {"x", "gradients", "start", "contact", "outside"}},
+    {"evaluate", {"x", "gradients", "start", "contact", "errors", "outside"}},
     {"set", {"entries"}},
     {"pair", {"x", "outside"}},
+    {"write", {"x", "outside"}},
     {"quit", {}}};
   const auto known = keys.find(name);
   if (known == keys.end())
-    throw io::RequestError("'do' must be describe, evaluate, set, pair or quit, not '" + name +
-                           "'");
+    throw io::RequestError("'do' must be describe, evaluate, set, pair, write or quit, not '" +
+                           name + "'");
   for (const auto &[key, value] : request.items())
     if (key != "id" && key != "do" &&
         std::find(known->second.begin(), known->second.end(), key) == known->second.end())
@@ -113,10 +115,12 @@ public:
   Server(RunContext               &context,
          const scene::SceneSource &source,
          const scene::Scene       &scene,
-         const int                 answers)
+         const int                 answers,
+         MPI_Comm                  own)
     : context(context)
     , source(source)
     , connection(context, answers)
+    , own_communicator(own)
     , model(std::make_unique<ServedModel<dim>>(context, scene))
   {}
 
@@ -131,9 +135,13 @@ public:
     std::string line;
     while (!is_ended && connection.next(line))
       connection.write(respond(line));
+    if (is_interrupted())
+      context.out(Verbosity::quiet) << "ended by a signal" << std::endl;
   }
 
 private:
+  /// Return the answer to a request. Ranks whose requests end differently would wait for each
+  /// other.
   Json respond(const std::string &line)
   {
     Json answer = {{"id", nullptr}};
@@ -147,9 +155,11 @@ private:
         answer["id"] = request.value("id", Json());
         check_interrupts(context.communicator());
         answer.update(answer_to(request));
+        fail_together(own_communicator, nullptr);
       }
     catch (const std::exception &error)
       {
+        fail_together(own_communicator, &error);
         answer["error"] = io::error_part(error);
       }
     return answer;
@@ -169,6 +179,8 @@ private:
       return set(request);
     if (name == "pair")
       return model->pair(request);
+    if (name == "write")
+      return model->write(request);
     is_ended = true;
     return Json::object();
   }
@@ -205,6 +217,7 @@ private:
   RunContext                       &context;
   scene::SceneSource                source;
   Connection                        connection;
+  MPI_Comm                          own_communicator; ///< of fail_together()
   std::unique_ptr<ServedModel<dim>> model;
   bool                              is_ended = false;
 };
@@ -222,9 +235,12 @@ void serve(RunContext               &context,
            const scene::Scene       &scene,
            const int                 answers)
 {
+  MPI_Comm own;
+  MPI_Comm_dup(context.communicator(), &own);
   if (scene.dimension == 2)
-    Server<2>(context, source, scene, answers).run();
+    Server<2>(context, source, scene, answers, own).run();
   else
-    Server<3>(context, source, scene, answers).run();
+    Server<3>(context, source, scene, answers, own).run();
+  MPI_Comm_free(&own);
 }
 } // namespace snug::app

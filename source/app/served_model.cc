@@ -1,10 +1,10 @@
 #include <snug/app/results.h>
 #include <snug/app/served_model.h>
 #include <snug/base/entries.h>
+#include <snug/io/text_file.h>
 #include <snug/state/validity_checks.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace snug::app {
@@ -77,6 +77,12 @@ bool flag(const Json &request, const std::string &key)
     throw io::RequestError("'" + key + "' must be true or false");
   return value.get<bool>();
 }
+
+/// Return what the names of the outputs of a load case begin with in answers.
+std::string prefix(const scene::Scene &scene, const unsigned int c)
+{
+  return scene.load_cases.size() < 2 ? "" : scene.load_cases[c].name + ".";
+}
 } // namespace
 
 template <int dim>
@@ -108,8 +114,7 @@ ServedModel<dim>::ServedModel(RunContext         &context,
     for (unsigned int i = 0; i < names.size(); ++i)
       {
         outputs.push_back({responses[i].get(), c});
-        output_names.push_back(
-          (problem->n_load_cases() == 1 ? "" : scene.load_cases[c].name + ".") + names[i]);
+        output_names.push_back(prefix(scene, c) + names[i]);
       }
 }
 
@@ -286,8 +291,8 @@ Json ServedModel<dim>::evaluate(const Json &request)
 {
   const auto        x            = design(request);
   const auto        wanted       = wanted_gradients(request);
-  const bool        with_contact = flag(request, "contact");
-  const std::string start        = request.value("start", "cold");
+  const bool        with_contact = flag(request, "contact"), with_errors = flag(request, "errors");
+  const std::string start = request.value("start", "cold");
   if (start != "cold" && start != "warm")
     throw io::RequestError("'start' must be \"cold\" or \"warm\"");
   const double begin  = context.seconds();
@@ -301,7 +306,9 @@ Json ServedModel<dim>::evaluate(const Json &request)
   const double differentiated = context.seconds();
   answer["load_cases"]        = io::load_cases_part(scene, states);
   answer["drift"]             = problem->drift(x);
-  const Work after            = context.total_work();
+  if (with_errors)
+    add_errors(states, answer);
+  const Work after = context.total_work();
   if (with_contact)
     answer["contact"] = io::contact_part(scene, *problem->solver, states);
   answer["work"]     = {{"f_mults", after.f_mults - before.f_mults},
@@ -312,6 +319,47 @@ Json ServedModel<dim>::evaluate(const Json &request)
                         {"gradients", 1e3 * (differentiated - solved)},
                         {"other", 1e3 * (context.seconds() - differentiated)}};
   return answer;
+}
+
+template <int dim>
+void ServedModel<dim>::add_errors(const States &states, Json &answer)
+{
+  const auto errors = mesh_errors(*problem, states, accuracy::Estimate::responses);
+  answer["errors"]  = Json::object();
+  for (unsigned int c = 0; c < errors.size(); ++c)
+    {
+      answer["load_cases"][c]["energy_norm"] = {{"error", errors[c].energy.error},
+                                                {"relative", errors[c].energy.relative}};
+      for (const auto &[name, estimate] : errors[c].responses)
+        answer["errors"][prefix(scene, c) + name] = estimate.error();
+    }
+  const auto combined          = problem->combined_objective(states);
+  answer["objective"]["error"] = objective_error(scene, combined.factors, errors);
+}
+
+template <int dim>
+Json ServedModel<dim>::write(const Json &request)
+{
+  const auto  x        = design(request);
+  const auto &states   = analyse(x, true);
+  auto        as_run   = scene;
+  const auto  by_shape = problem->shapes->by_shape(x);
+  for (auto &shape : as_run.shapes)
+    for (const auto &[name, values] : by_shape)
+      if (shape.name == name)
+        shape.initial = values;
+  as_run.task = scene::Task::state;
+  prepare_output(context, as_run);
+  remove_earlier_results(context, scene);
+  Results<dim> results(*problem);
+  results.summary.task = to_text(as_run.task);
+  results.warn(states);
+  results.add_last(0., states);
+  results.export_shape(x);
+  results.write_summary();
+  return {{"x", x},
+          {"directory", scene.output_directory},
+          {"files", io::written_files(context, scene.output_directory)}};
 }
 
 template <int dim>

@@ -54,18 +54,6 @@ void report(const ShapeProblem<dim>            &problem,
   results.warn(states);
 }
 
-void prepare_output(const RunContext &context, const scene::Scene &scene)
-{
-  for (const auto &directory : output_directories(scene))
-    io::make_output_directory(context, directory);
-  throw_collectively(context.communicator(), [&]() {
-    std::ostringstream text;
-    scene::print(scene, text);
-    if (context.rank() == 0)
-      io::write_text_file(scene.output_directory + "/parameters.prm", text.str());
-  });
-}
-
 template <int dim>
 void estimate_in(RunContext &context, const scene::Scene &scene, const unsigned int ranks)
 {

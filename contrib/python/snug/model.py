@@ -43,6 +43,7 @@ class Result:
     gradients    derivatives of the wanted responses, arrays of the size of the design
     objective    value of the objective of the model, objective_gradient with gradients=True
     constraints  value of each constraint of the model
+    errors       estimated discretization errors of responses, with errors=True
     certificate  the largest relative error of the solutions, measured independently of the solver
     drift        distance from the last contact search in sizes of faces
     work         applications of F and factorizations that the answer took"""
@@ -55,7 +56,7 @@ class Result:
         self.objective = answer["objective"]["value"]
         self.objective_gradient = answer["objective"].get("gradient")
         self.constraints = {part["name"]: part["value"] for part in answer["constraints"]}
-        self.load_cases = answer["load_cases"]
+        self.load_cases, self.errors = answer["load_cases"], answer.get("errors", {})
         self.certificate = max(part["certificate"] for part in self.load_cases)
 
     def __getitem__(self, name):
@@ -153,13 +154,15 @@ class Model:
         is_near = np.abs(x - inside) <= ROUND_OFF * (self.upper - self.lower)
         return np.where(is_near, inside, x).tolist()
 
-    def evaluate(self, x=None, gradients=False, start="cold", contact=False):
+    def evaluate(self, x=None, gradients=False, start="cold", contact=False,
+                 errors=False):
         """Return the Result of a design, the start of the model without x. `gradients` is True
         for all responses, or a list of their names. With start="cold" equal requests have equal
-        bits; "warm" begins with the forces of earlier designs, as a search does."""
+        bits; "warm" begins with the forces of earlier designs, as a search does. `errors` asks for the
+        estimated discretization errors."""
         keys = {"x": self.design(self.start if x is None else x), "start": start,
                 "gradients": gradients if isinstance(gradients, bool) else list(gradients),
-                "contact": contact}
+                "contact": contact, "errors": errors}
         if self.last is None or self.last[0] != keys:
             self.last = keys, Result(self.process.call("evaluate", **keys))
         return self.last[1]
@@ -215,6 +218,11 @@ class Model:
     def pair(self, x):
         """Search the contacts of a design anew."""
         self.change("pair", x=self.design(x))
+
+    def write(self, x=None):
+        """Write the files of a design to the output directory, and return their paths."""
+        answer = self.process.call("write", x=self.design(self.start if x is None else x))
+        return [pathlib.Path(answer["directory"], name) for name in answer["files"]]
 
     def close(self):
         self.process.close()

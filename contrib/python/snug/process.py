@@ -56,10 +56,16 @@ class Process:
         if not line:
             status = self.process.wait()
             self.drain.join(1.)
-            text = "".join(list(self.log)[-5:]).strip()
-            cause = f"no answer in {self.timeout} s" if is_late else f"exit status {status}"
-            raise Died(f"the program snug ended ({cause}): {text}", status, list(self.log))
+            raise Died(self.death(status, is_late), status, list(self.log))
         return json.loads(line)
+
+    def death(self, status, is_late):
+        """Return how the process ended, its own last message, and the end of the log."""
+        cause = (f"no answer in {self.timeout} s" if is_late else f"exit status {status}"
+                 if status >= 0 else f"signal {signal.Signals(-status).name}")
+        lines = [line for line in self.log if line.strip(" -\n")]  # mpirun rules its messages
+        own = [line for line in lines[:-5] if line.startswith("snug: ")]
+        return f"the program snug ended ({cause}): {''.join(own[-1:] + lines[-5:]).strip()}"
 
     def call(self, do, **keys):
         """Return the answer to a request, or raise its error."""

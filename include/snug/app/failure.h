@@ -11,13 +11,21 @@ namespace snug::app {
 int exit_status(const std::exception &error);
 
 /**
+ * Return if no rank has an @p error, or if all ranks have one. If the other ranks do not call this
+ * function within @p patience seconds after a rank with an error, they may be waiting for a message
+ * that never comes. Then, and if only some ranks have an error, a rank with an error prints
+ * "snug: ...", and MPI_Abort ends all ranks. Collective on @p communicator, which must have no
+ * other messages.
+ */
+void fail_together(MPI_Comm communicator, const std::exception *error, double patience = 10.);
+
+/**
  * Run @p work and turn what it throws into an exit status and one line
  * "snug: ..." on standard error.
  *
  * Errors that all ranks throw (those of the input, of the solver and of
- * throw_collectively()) are printed by rank 0, and their status is returned. If the other ranks do
- * not throw within @p patience seconds, they may be waiting for a message
- * that never comes: the rank prints its own error, and MPI_Abort ends all ranks.
+ * throw_collectively()) are printed by rank 0, and their status is returned. Errors of some ranks
+ * only end all ranks, see fail_together().
  */
 int guarded(MPI_Comm communicator, const std::function<int()> &work, double patience = 10.);
 } // namespace snug::app

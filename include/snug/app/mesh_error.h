@@ -12,11 +12,12 @@ struct MeshError
   std::vector<std::pair<std::string, accuracy::ResponseEstimate>> responses; ///< by name
 };
 
-/// Return the estimated errors of each load case that `Accuracy/Estimate` requests; empty: none
-/// requested. Collective. @throws SolveError.
+/// Return the estimated errors of each load case that @p asked, such as `Accuracy/Estimate` of the
+/// scene, requests; empty: none requested. Collective. @throws SolveError.
 template <int dim>
 std::vector<MeshError> mesh_errors(const ShapeProblem<dim>                  &problem,
-                                   const typename ShapeProblem<dim>::States &states);
+                                   const typename ShapeProblem<dim>::States &states,
+                                   accuracy::Estimate                        asked);
 
 /// Return the error of the objective of load cases combined with @p factors; NaN: not estimated.
 double objective_error(const scene::Scene           &scene,

@@ -17,6 +17,10 @@ std::vector<std::string> output_directories(const scene::Scene &scene);
 /// or if the file of a body has this path.
 std::string solid_file(const scene::Scene &scene, const scene::Body &body);
 
+/// Make the output directories of a scene, and write all entries into `parameters.prm` there.
+/// Collective. @throws InputError.
+void prepare_output(const RunContext &context, const scene::Scene &scene);
+
 /// Remove the results of earlier runs from the output directories of a scene. Collective.
 void remove_earlier_results(const RunContext &context, const scene::Scene &scene);
 

@@ -30,6 +30,10 @@ public:
   /// SolveError.
   Json evaluate(const Json &request);
 
+  /// Write the files of a run that analyses a design, and those of its shape, and return their
+  /// names. @throws the same errors, and InputError if the output directory cannot be written to.
+  Json write(const Json &request);
+
   /// Search contact anew at a design. @throws the same errors.
   Json pair(const Json &request);
 
@@ -46,6 +50,8 @@ private:
                      const std::vector<unsigned int> &wanted,
                      bool                             all,
                      Json                            &answer);
+  /// Add the estimated discretization errors of all outputs that have an estimate.
+  void add_errors(const States &states, Json &answer);
 
   RunContext                                           &context;
   scene::Scene                                          scene;
