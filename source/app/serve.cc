@@ -7,6 +7,7 @@
 #include <snug/feti/sparse_factor.h>
 #include <snug/scene/json_scene.h>
 
+#include <malloc.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -86,6 +87,12 @@ private:
   const int         answers;
   std::string       buffer; ///< bytes behind the last line
   bool              is_closed = false;
+};
+
+/// This struct returns freed memory to the system at its end, such as that of a second model.
+struct FreedMemory
+{
+  ~FreedMemory() { malloc_trim(0); }
 };
 
 /// Throw a io::RequestError for keys that the request does not have.
@@ -189,7 +196,8 @@ private:
   {
     if (!request.contains("entries") || !request["entries"].is_object())
       throw io::RequestError("'entries' must be an object of entries and values");
-    auto next = source;
+    const FreedMemory freed;
+    auto              next = source;
     for (const auto &[entry, value] : request["entries"].items())
       {
         const std::string prefix = entry + "=";
