@@ -89,6 +89,48 @@ class Serve(unittest.TestCase):
         self.assertEqual(answer["objective"]["value"], state["energy"])
         self.assertEqual(answer["load_cases"][0]["active_contacts"], state["active_contacts"])
 
+    def test_written_files_and_errors_are_those_of_a_run(self):
+        """The entries that are written give the same state, and estimates of its errors."""
+        with tempfile.TemporaryDirectory() as folder:
+            for ranks in (1, 2):
+                out, again = (pathlib.Path(folder, f"{name}-{ranks}") for name in ("out", "again"))
+                with Server(f"Output directory={out}", ranks=ranks) as server:
+                    server.ask("pair", x=AT)
+                    answer = server.evaluate(AT, errors=True)
+                    server.evaluate(ELSEWHERE)
+                    written = server.ask("write", x=AT)
+                    self.assertNotIn("error", written)
+                    tolerance = server.ask("describe")["tolerance"]
+                self.assertEqual(written["directory"], str(out))
+                self.assertEqual(sorted(str(file.relative_to(out)) for file in out.rglob("*")
+                                        if file.is_file()), written["files"])
+                subprocess.run([PROGRAM, str(out / "parameters.prm"), "--output", str(again),
+                                "--set", f"Solver/Relative tolerance={tolerance}",
+                                "--set", "Accuracy/Estimate=responses"],
+                               check=True, stdout=subprocess.DEVNULL)
+                files = {str(file.relative_to(again)) for file in again.rglob("*")
+                         if file.is_file()}
+                # and those of the shape
+                self.assertEqual(set(written["files"]) - files,
+                                 {"profile.csv", "profile.step", "control-points.csv"})
+                self.assertEqual(files - set(written["files"]), set())
+                served, run = (json.loads((path / "summary.json").read_text())
+                               for path in (out, again))
+                self.assertEqual(served["task"], "state")
+                found = run["state"]["accuracy"]["responses"]
+                self.assertEqual(set(found), set(answer["errors"]))
+                for name, error in found.items():
+                    self.assertAlmostEqual(answer["errors"][name] / error, 1., delta=1e-6)
+                self.assertEqual(answer["objective"]["error"], answer["errors"]["potential energy"])
+                for state in (served["state"]["responses"], run["state"]["responses"]):
+                    self.assertAlmostEqual(state["peak"] / answer["values"]["peak"], 1., delta=1e-8)
+
+    def test_files_that_cannot_be_written(self):
+        with Server("Output directory=/dev/null/out") as server:
+            answer = server.ask("write")["error"]
+            self.assertEqual((answer["kind"], answer["entry"]), ("input", "Output directory"))
+            server.evaluate(AT)
+
     def test_gradients_are_those_of_differences(self):
         step = 1e-5
         with Server() as server:

@@ -22,6 +22,8 @@ def answer(request):
                               "entry": entry, "value": value, "allowed": "Body/Stiffness"}}
         stiffness = float(value)
         return {"rebuilt": ["problem"]}
+    if do == "write":
+        return {"x": request["x"], "directory": "output", "files": ["a.csv", "b/c.vtu"]}
     x, y = request["x"]
     if max(abs(x), abs(y)) > 1. or x - y > 1.5:
         return {"error": {"kind": "request", "message": "outside"}}
@@ -43,7 +45,8 @@ def answer(request):
     return {"x": [x, y], "values": {"energy": energy, "size": x * x + y * y},
             "gradients": {name: rows[name] for name in names}, "load_cases": [case],
             "objective": {"value": energy}, "constraints": [], "drift": 0.,
-            "work": {"f_mults": requests}, **({"contact": [contact]} if request["contact"] else {})}
+            "work": {"f_mults": requests}, **({"contact": [contact]} if request["contact"] else {}),
+            **({"errors": {"energy": .5}} if request["errors"] else {})}
 
 
 sys.stderr.write("a long log\n" * 20000)  # more than a pipe holds

@@ -42,6 +42,9 @@ class Formulas(unittest.TestCase):
         # The last answer is kept, so that the program counts no request.
         again = self.model.evaluate(np.array([.5, .25]), gradients=["energy"], contact=True)
         self.assertIs(again, result)
+        self.assertEqual(result.errors, {})
+        self.assertEqual(self.model.evaluate([.5, .25], errors=True).errors, {"energy": .5})
+        self.assertEqual(self.model.write([.5, .25])[1], pathlib.Path("output/b/c.vtu"))
         self.assertLess(len(repr(result)) + len(repr(self.model)), 200)
         self.assertIn("<tr><td>energy</td><td>1.5</td><td>3.58</td></tr>", result._repr_html_())
 
