@@ -47,7 +47,7 @@ void Results<3>::export_solids(const std::vector<DesignedFace<3>> &designed)
   for (const auto &body : scene.bodies)
     {
       const auto       &imported = body.mesh.imported;
-      const std::string file     = solid_file(scene, body);
+      const std::string file     = io::solid_file(scene, body);
       if (file.empty())
         continue;
       try

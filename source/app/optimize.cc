@@ -39,7 +39,7 @@ std::string optimize_on_one_mesh(RunContext &context, const scene::Scene &scene,
   ShapeProblem<dim> problem(context, scene, std::move(mesh));
   problem.check_overlaps();
   if (!restart)
-    remove_earlier_results(context, scene);
+    io::remove_earlier_results(context, scene);
   catch_interrupts();
   Results<dim> results(problem);
   results.print_header();
@@ -102,7 +102,7 @@ void AdaptiveOptimization<dim>::analyse_first_design()
   context.out() << "adapting the mesh to the initial design:" << std::endl;
   adaptation.start();
   if (!restart)
-    remove_earlier_results(context, scene);
+    io::remove_earlier_results(context, scene);
   const auto  failure_reason = adaptation.reach(1.);
   const auto &problem        = adaptation.problem();
   results                    = std::make_unique<Results<dim>>(problem);

@@ -1,7 +1,6 @@
 #include <snug/app/results.h>
 #include <snug/app/served_model.h>
 #include <snug/base/entries.h>
-#include <snug/io/text_file.h>
 #include <snug/state/validity_checks.h>
 
 #include <algorithm>
@@ -349,8 +348,8 @@ Json ServedModel<dim>::write(const Json &request)
       if (shape.name == name)
         shape.initial = values;
   as_run.task = scene::Task::state;
-  prepare_output(context, as_run);
-  remove_earlier_results(context, scene);
+  io::prepare_output(context, as_run);
+  io::remove_earlier_results(context, scene);
   Results<dim> results(*problem);
   results.summary.task = to_text(as_run.task);
   results.warn(states);
@@ -359,7 +358,7 @@ Json ServedModel<dim>::write(const Json &request)
   results.write_summary();
   return {{"x", x},
           {"directory", scene.output_directory},
-          {"files", io::written_files(context, scene.output_directory)}};
+          {"files", io::written_files(context, scene)}};
 }
 
 template <int dim>

@@ -71,7 +71,7 @@ void write_model(RunContext                                &context,
   scene::Scene scene = problem.scene;
   scene.output_directory += "/model";
   scene.output.fields.clear();
-  prepare_output(context, scene);
+  io::prepare_output(context, scene);
   std::vector<std::string> names;
   for (const auto &body : scene.bodies)
     names.push_back(body.name);
@@ -80,7 +80,7 @@ void write_model(RunContext                                &context,
   at_rest.displacement.resize(positions.size());
   const auto &model = problem.solver->model();
   for (unsigned int c = 0; c < problem.n_load_cases(); ++c)
-    io::FieldOutput<dim>(output_directories(scene)[problem.n_load_cases() > 1 ? c + 1 : 0],
+    io::FieldOutput<dim>(io::output_directories(scene)[problem.n_load_cases() > 1 ? c + 1 : 0],
                          scene.output, names)
       .write({*problem.mesh, problem.tearing, model.bodies, model.load_cases[c]}, 0., at_rest);
 }
@@ -137,7 +137,7 @@ std::string analyse(RunContext &context, const scene::Scene &scene, const bool a
   if (has_targets)
     {
       adaptation.start();
-      remove_earlier_results(context, scene);
+      io::remove_earlier_results(context, scene);
       failure_reason = adaptation.reach_and_verify();
       adapted        = adaptation.release();
     }
@@ -147,7 +147,7 @@ std::string analyse(RunContext &context, const scene::Scene &scene, const bool a
       print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
       adapted.problem = std::make_unique<ShapeProblem<dim>>(context, scene, std::move(mesh));
       adapted.problem->check_overlaps();
-      remove_earlier_results(context, scene);
+      io::remove_earlier_results(context, scene);
     }
   auto        &problem = *adapted.problem;
   auto        &states  = adapted.states;
@@ -198,7 +198,7 @@ void print_memory(RunContext &context)
 template <int dim>
 void run_task(RunContext &context, const scene::Scene &scene, const Options &options)
 {
-  prepare_output(context, scene);
+  io::prepare_output(context, scene);
   print_program(context);
   const auto failure_reason = scene.task == scene::Task::optimize && !options.advise
                                 ? optimize<dim>(context, scene, options.restart)

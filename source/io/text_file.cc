@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -111,21 +110,5 @@ void remove_results(const RunContext &context, const std::vector<std::string> &d
         remove_files(directory + "/qp", of_qp);
       }
   });
-}
-
-std::vector<std::string> written_files(const RunContext &context, const std::string &directory)
-{
-  namespace fs = std::filesystem;
-  std::vector<std::string> files;
-  throw_collectively(context.communicator(), [&]() {
-    if (context.rank() != 0)
-      return;
-    const auto begin = fs::last_write_time(directory + "/parameters.prm");
-    for (const auto &file : fs::recursive_directory_iterator(directory))
-      if (file.is_regular_file() && file.last_write_time() >= begin)
-        files.push_back(file.path().lexically_relative(directory).string());
-  });
-  std::sort(files.begin(), files.end());
-  return files;
 }
 } // namespace snug::io

@@ -4,25 +4,12 @@
 #include <snug/app/mesh_error.h>
 #include <snug/io/contact_output.h>
 #include <snug/io/fields.h>
+#include <snug/io/output_directory.h>
 #include <snug/io/summary.h>
 
 namespace snug::app {
 template <int dim>
 class DesignedFace;
-
-/// Return the output directory of a scene and, if there are several load cases, their directories.
-std::vector<std::string> output_directories(const scene::Scene &scene);
-
-/// Return the path of the STEP file of a body, or nothing for bodies that are not from a CAD file,
-/// or if the file of a body has this path.
-std::string solid_file(const scene::Scene &scene, const scene::Body &body);
-
-/// Make the output directories of a scene, and write all entries into `parameters.prm` there.
-/// Collective. @throws InputError.
-void prepare_output(const RunContext &context, const scene::Scene &scene);
-
-/// Remove the results of earlier runs from the output directories of a scene. Collective.
-void remove_earlier_results(const RunContext &context, const scene::Scene &scene);
 
 /**
  * This class writes the results of a run to the output directory and to the log: pictures, the

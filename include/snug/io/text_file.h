@@ -35,10 +35,6 @@ void make_output_directory(const RunContext &context, const std::string &path);
  * otherwise remain beside those of this run. Collective.
  */
 void remove_results(const RunContext &context, const std::vector<std::string> &directories);
-
-/// Return, on rank 0, the files in and below a directory that are not older than its
-/// parameters.prm, as paths from there. Collective.
-std::vector<std::string> written_files(const RunContext &context, const std::string &directory);
 } // namespace snug::io
 
 #endif
