@@ -158,8 +158,8 @@ class Model:
                  errors=False):
         """Return the Result of a design, the start of the model without x. `gradients` is True
         for all responses, or a list of their names. With start="cold" equal requests have equal
-        bits; "warm" begins with the forces of earlier designs, as a search does. `errors` asks for the
-        estimated discretization errors."""
+        bits; "warm" begins with the forces of earlier designs, as a search does. `errors` asks for
+        the estimated discretization errors."""
         keys = {"x": self.design(self.start if x is None else x), "start": start,
                 "gradients": gradients if isinstance(gradients, bool) else list(gradients),
                 "contact": contact, "errors": errors}
