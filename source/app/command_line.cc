@@ -146,12 +146,13 @@ Options parse(const int argc, const char *const *argv)
 
 std::string usage()
 {
-  return R"(usage:
-    snug FILE.prm [--set "Subsection/Entry=value"]... [--output DIR] [--restart]
-                  [--petsc "-NAME VALUE ..."]... [--leave-out "KEYWORD, ..."]
-    snug --advise FILE.prm | --estimate [--ranks N] FILE.prm | --serve FILE.prm
-    snug --translate FILE.inp | FILE.step | FILE.json | FILE.prm
-    snug --validate[=json] FILE.prm | --print-parameters[=json] | --help | --version
+  return R"(Usage: snug FILE.prm [OPTION]...
+  or:  snug --validate[=json] FILE.prm
+  or:  snug --advise FILE.prm
+  or:  snug --estimate [--ranks N] FILE.prm
+  or:  snug --serve FILE.prm
+  or:  snug --translate FILE.inp | FILE.step | FILE.json | FILE.prm
+  or:  snug --print-parameters[=json] | --help | --version
 
 Shape optimization of elastic bodies in contact, with or without friction. FILE.prm may
 also be a deck of Abaqus or CalculiX (.inp), which is translated and run, or a model in

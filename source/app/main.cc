@@ -19,14 +19,22 @@
 namespace {
 using namespace snug;
 
-/// Return whether this process has rank 0 according to its launcher (Open MPI, MPICH, Slurm), or
-/// has no launcher. Output that needs no MPI is then printed only once under mpirun.
-bool is_first_process()
+/// Return the rank that the launcher (Open MPI, MPICH, Slurm) assigns to this process, or a null
+/// pointer if there is no launcher.
+const char *launcher_rank()
 {
   for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
     if (const char *rank = std::getenv(name))
-      return std::string(rank) == "0";
-  return true;
+      return rank;
+  return nullptr;
+}
+
+/// Return whether this process has rank 0 or no launcher. Output that needs no MPI is then printed
+/// only once under mpirun.
+bool is_first_process()
+{
+  const char *rank = launcher_rank();
+  return rank == nullptr || std::string(rank) == "0";
 }
 
 /// Keep freed memory in the process, because the arrays of one geometry are freed and allocated
@@ -88,6 +96,9 @@ int main(int argc, char *argv[])
       return app::exit_status(error);
     }
   pass_to_petsc(options.petsc);
+  // Otherwise Open MPI 4 starts a daemon for a process without a launcher, which takes 0.1 s.
+  if (launcher_rank() == nullptr)
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   // PETSc would take our options for its own and print its own help.
   int  no_options = 1;
   auto blocked    = std::make_unique<BlockedSignals>(); // for the threads of MPI
