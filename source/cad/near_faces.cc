@@ -156,7 +156,7 @@ std::optional<NearFaces> near(const SampledFace &a, const SampledFace &b, const 
   if (result.gap == HUGE_VAL)
     return {};
   // The smaller face has the finer samples.
-  const auto &[face, n_near] =
+  const auto [face, n_near] =
     a.area < b.area ? std::make_pair(&a, to_b.n_near) : std::make_pair(&b, to_a.n_near);
   result.area = face->area * n_near / std::max<std::size_t>(1, face->samples.size());
   return result;
