@@ -17,8 +17,8 @@ deck::Translation translate_deck(scene::SceneSource &source, const bool must_be_
       if (must_be_deck)
         throw InputError(source.file +
                          ": option '--translate' needs a CAD file, which ends with .step, "
-                         ".stp, .iges, .igs, .brep or .brp, a deck of Abaqus or CalculiX, which "
-                         "begins with a keyword such as *NODE, a model in JSON, or FILE.prm");
+                         ".stp, .iges, .igs, .brep or .brp, FILE.prm, a model in JSON, or a deck "
+                         "of Abaqus or CalculiX, which begins with a keyword such as *NODE");
       return {};
     }
   try
