@@ -1,9 +1,9 @@
-#include <snug/app/bounding_box.h>
 #include <snug/app/build_loads.h>
 #include <snug/app/mesh_checks.h>
 #include <snug/base/statements.h>
 #include <snug/geometry/extents.h>
 #include <snug/geometry/imported_mesh.h>
+#include <snug/io/bounding_box.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,16 +21,16 @@ void check_distances(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
     {
       if (scene::split_face(pair.master).second.empty())
         continue; // an obstacle
-      double           size = 0.;
-      BoundingBox<dim> boxes[2];
+      double               size = 0.;
+      io::BoundingBox<dim> boxes[2];
       for (const unsigned int side : {0, 1})
         {
           const auto faces = find_side(scene, mesh, side == 0 ? pair.slave : pair.master);
-          const auto body  = box_of_body(mesh, faces.body());
-          boxes[side]      = box_of_side(mesh, faces);
+          const auto body  = io::box_of_body(mesh, faces.body());
+          boxes[side]      = io::box_of_side(mesh, faces);
           size             = std::max(size, body.diagonal());
         }
-      const double gap = distance(boxes[0], boxes[1]);
+      const double gap = io::distance(boxes[0], boxes[1]);
       if (gap <= too_far * size)
         continue;
       std::ostringstream text;

@@ -1,7 +1,7 @@
-#include <snug/app/mesh_summary.h>
 #include <snug/app/model_report.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/geometry/imported_mesh.h>
+#include <snug/io/mesh_summary.h>
 #include <snug/state/symmetry_planes.h>
 #include <snug/state/validity_checks.h>
 
@@ -79,7 +79,7 @@ std::vector<double> facing_shares(const ShapeProblem<dim> &problem, const unsign
   for (unsigned int i = 0; i < areas.size(); ++i)
     shares[contact.places()[i].pair] += areas[i];
   for (unsigned int p = 0; p < shares.size(); ++p)
-    shares[p] /= area_of(problem.mesh->degree(), surface, contact.pairs()[p].slave, x);
+    shares[p] /= io::area_of(problem.mesh->degree(), surface, contact.pairs()[p].slave, x);
   return shares;
 }
 
@@ -112,7 +112,7 @@ double largest_load(const mesh::BodyMesh<dim>      &mesh,
   const double             force = load.resultant.force.norm();
   // A boundary on the axis of revolution has no area, and no total force.
   return dealii::Utilities::MPI::max(largest, mesh.communicator()) +
-         (force > 0. ? force / area_of<dim>(mesh.degree(), surface, boundary, x) : 0.);
+         (force > 0. ? force / io::area_of<dim>(mesh.degree(), surface, boundary, x) : 0.);
 }
 
 /// Return a warning for each boundary whose loads per area exceed Young's modulus of its body, as

@@ -2,7 +2,6 @@
 #include <snug/app/cost_report.h>
 #include <snug/app/interrupt.h>
 #include <snug/app/mesh_checks.h>
-#include <snug/app/mesh_summary.h>
 #include <snug/app/model_report.h>
 #include <snug/app/optimize.h>
 #include <snug/app/read_deck.h>
@@ -17,6 +16,7 @@
 #include <snug/deck/translation.h>
 #include <snug/feti/sparse_factor.h>
 #include <snug/io/fields.h>
+#include <snug/io/mesh_summary.h>
 #include <snug/io/summary.h>
 #include <snug/io/text_file.h>
 #include <snug/mesh_file/deck_text.h>
@@ -92,7 +92,7 @@ io::Json validate_in(RunContext &context, const scene::Scene &scene, const bool 
   print_cost_estimate(context, scene, *mesh, context.n_ranks(), false);
   print_notes(scene, context.out());
   print_cad_faces(scene, context.out(Verbosity::quiet));
-  const auto summary = summarize_mesh(scene, *mesh);
+  const auto summary = io::summarize_mesh(scene, *mesh);
   print(summary, context.out(Verbosity::quiet));
   context.warn("mesh file", import_warnings(scene));
   context.warn("refinement", refinement_warnings(scene, *mesh));
@@ -110,7 +110,7 @@ io::Json validate_in(RunContext &context, const scene::Scene &scene, const bool 
     write_model(context, problem, positions);
   return {{"valid", true},
           {"file", scene.file},
-          {"bodies", bodies_part(summary)},
+          {"bodies", io::bodies_part(summary)},
           {"pairs", pairs_part(problem)},
           {"warnings", io::warnings_part(context.warnings())}};
 }
@@ -274,12 +274,19 @@ std::string translate_cad(const Options &options, const RunContext &context)
   return text;
 }
 
+/// Print a parameter file on standard output, which has no log. Collective.
+void print_translation(const RunContext &context, const std::string &text)
+{
+  if (context.rank() == 0)
+    std::cout << text << std::flush;
+}
+
 /// Read the file of @p options and do what they ask. JSON goes to the descriptor @p answers.
 void run_file(const Options &options, RunContext &context, const int answers)
 {
   if (cad::is_cad_file(options.file))
     {
-      context.out(Verbosity::quiet) << translate_cad(options, context) << std::flush;
+      print_translation(context, translate_cad(options, context));
       return;
     }
   scene::SceneSource source = {
@@ -294,13 +301,13 @@ void run_file(const Options &options, RunContext &context, const int answers)
     {
       std::ostringstream text;
       scene::print(scene::read_scene(source), text);
-      context.out(Verbosity::quiet) << text.str() << std::flush;
+      print_translation(context, text.str());
       return;
     }
   const auto translation = translate_deck(source, options.translate);
   if (options.translate)
     {
-      context.out(Verbosity::quiet) << source.text << std::flush;
+      print_translation(context, source.text);
       return;
     }
   const scene::Scene scene = scene::read_scene(source);
@@ -327,7 +334,7 @@ int run(const Options &options)
 {
   reserve_blas_buffer();
   const int  answers = options.serve || options.json ? divert_standard_output() : -1;
-  RunContext context(MPI_COMM_WORLD, std::cout);
+  RunContext context(MPI_COMM_WORLD, options.translate ? std::cerr : std::cout);
   try
     {
       run_file(options, context, answers);

@@ -1,4 +1,4 @@
-#include <snug/app/mesh_summary.h>
+#include <snug/io/mesh_summary.h>
 
 #include <gtest/gtest.h>
 
@@ -130,9 +130,9 @@ TEST(RegionScenes, OneMaterialMayBeNamedForAll)
 TEST(RegionScenes, RegionsAreListed)
 {
   const SolvedScene<2> solved(of_file("bar.inp"), {"Dimension=2", "Gravity=0, 0"});
-  const auto           body = app::summarize_mesh(solved.scene, solved.mesh).bodies.at(0);
+  const auto           body = io::summarize_mesh(solved.scene, solved.mesh).bodies.at(0);
   std::ostringstream   text;
-  app::print(app::summarize_mesh(solved.scene, solved.mesh), text);
+  io::print(io::summarize_mesh(solved.scene, solved.mesh), text);
   ASSERT_EQ(body.regions.size(), 3u);
   EXPECT_EQ(body.regions[0].name, "core");
   EXPECT_EQ(body.regions[1].name, "all");

@@ -1,10 +1,10 @@
-#ifndef snug_app_bounding_box_h
-#define snug_app_bounding_box_h
+#ifndef snug_io_bounding_box_h
+#define snug_io_bounding_box_h
 
 #include <snug/contact/pair.h>
 #include <snug/mesh/body_mesh.h>
 
-namespace snug::app {
+namespace snug::io {
 /// This struct is a box along the axes [length].
 template <int dim>
 struct BoundingBox
@@ -26,6 +26,6 @@ BoundingBox<dim> box_of_side(const mesh::BodyMesh<dim> &mesh, const contact::Sid
 /// Return the distance between two boxes, which is zero if they overlap.
 template <int dim>
 double distance(const BoundingBox<dim> &a, const BoundingBox<dim> &b);
-} // namespace snug::app
+} // namespace snug::io
 
 #endif

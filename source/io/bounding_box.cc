@@ -1,11 +1,11 @@
-#include <snug/app/bounding_box.h>
+#include <snug/io/bounding_box.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <limits>
 
-namespace snug::app {
+namespace snug::io {
 namespace {
 /// Return the bounding box of the @p points of all ranks. Collective.
 template <int dim>
@@ -66,4 +66,4 @@ double distance(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-} // namespace snug::app
+} // namespace snug::io

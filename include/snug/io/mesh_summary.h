@@ -1,14 +1,14 @@
-#ifndef snug_app_mesh_summary_h
-#define snug_app_mesh_summary_h
+#ifndef snug_io_mesh_summary_h
+#define snug_io_mesh_summary_h
 
-#include <snug/app/bounding_box.h>
 #include <snug/io/answer.h>
+#include <snug/io/bounding_box.h>
 #include <snug/mesh/surface.h>
 #include <snug/scene/scene.h>
 
 #include <iosfwd>
 
-namespace snug::app {
+namespace snug::io {
 /// This struct summarizes the meshes of a scene for its author: sizes, boundaries, regions.
 template <int dim>
 struct MeshSummary
@@ -53,12 +53,12 @@ MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<
 
 /// Return {name, cells, box, regions, boundaries} of each body.
 template <int dim>
-io::Json bodies_part(const MeshSummary<dim> &summary);
+Json bodies_part(const MeshSummary<dim> &summary);
 
 /// Print a line for each body, for each region of a body with several regions, and for each
 /// boundary.
 template <int dim>
 void print(const MeshSummary<dim> &summary, std::ostream &out);
-} // namespace snug::app
+} // namespace snug::io
 
 #endif

@@ -1,8 +1,8 @@
-#include <snug/app/mesh_summary.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/elasticity/element.h>
 #include <snug/faces/tributary.h>
 #include <snug/geometry/extents.h>
+#include <snug/io/mesh_summary.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -10,7 +10,7 @@
 #include <iomanip>
 #include <ostream>
 
-namespace snug::app {
+namespace snug::io {
 namespace {
 template <int dim>
 std::vector<typename MeshSummary<dim>::Region> regions_of_body(const mesh::BodyMesh<dim> &mesh,
@@ -89,18 +89,18 @@ MeshSummary<dim> summarize_mesh(const scene::Scene &scene, const mesh::BodyMesh<
 }
 
 template <int dim>
-io::Json bodies_part(const MeshSummary<dim> &summary)
+Json bodies_part(const MeshSummary<dim> &summary)
 {
   const auto corner = [](const dealii::Point<dim> &x) {
     return std::vector<double>(x.begin_raw(), x.end_raw());
   };
   const auto corners = [&](const BoundingBox<dim> &box) {
-    return io::Json{corner(box.lower), corner(box.upper)};
+    return Json{corner(box.lower), corner(box.upper)};
   };
-  io::Json part = io::Json::array();
+  Json part = Json::array();
   for (const auto &body : summary.bodies)
     {
-      io::Json regions = io::Json::array(), boundaries = io::Json::array();
+      Json regions = Json::array(), boundaries = Json::array();
       for (const auto &region : body.regions)
         regions.push_back(
           {{"name", region.name}, {"cells", region.n_cells}, {"volume", region.volume}});
@@ -147,9 +147,9 @@ void print(const MeshSummary<dim> &summary, std::ostream &out)
   template double           area_of(unsigned int, const mesh::Surface<dim> &, const contact::Side &, \
                                     const mesh::Surface<dim>::Field &);                              \
   template MeshSummary<dim> summarize_mesh(const scene::Scene &, const mesh::BodyMesh<dim> &);       \
-  template io::Json         bodies_part(const MeshSummary<dim> &);                                   \
+  template Json             bodies_part(const MeshSummary<dim> &);                                   \
   template void             print(const MeshSummary<dim> &, std::ostream &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE
-} // namespace snug::app
+} // namespace snug::io
