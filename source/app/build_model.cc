@@ -178,7 +178,8 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
   model.supports       = build_supports(scene, mesh);
   model.point_supports = build_point_supports(scene, mesh);
   model.springs        = build_springs(scene, mesh);
-  model.pairs          = build_pairs(scene, mesh);
+  for (const auto &pair : build_pairs(scene, mesh))
+    (pair.parameters.law == contact::Law::tied ? model.ties : model.pairs).push_back(pair);
   return model;
 }
 

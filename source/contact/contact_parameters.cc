@@ -59,11 +59,14 @@ bool PairParameters::has_friction() const
   const char *const text    = resistance().c_str();
   char             *end     = nullptr;
   const bool        is_zero = std::strtod(text, &end) == 0. && end != text && *end == '\0';
-  return friction != Friction::none && !resistance().empty() && !is_zero;
+  return law == Law::contact && friction != Friction::none && !resistance().empty() && !is_zero;
 }
 
 void PairParameters::declare(Entries &entries)
 {
+  entries.add("Law", law,
+              "Whether the sides are in contact or tied. Entries of friction, 'Gap' and "
+              "'Interference' are for contact only.");
   entries.add("Method", method,
               choice_or_auto<Method>(
                 "nodal if every node of both sides within the search distance matches a "

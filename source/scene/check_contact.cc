@@ -71,6 +71,23 @@ void check_limits(const Scene            &scene,
                  "needs a '" + entry + "' for '" + pair.slave + ": " + pair.master + "'");
     }
 }
+
+/// Check that a tied pair joins two bodies and has no entries of contact of its own.
+void check_tied(const Scene                             &scene,
+                const SectionCheck                      &section,
+                const contact::ContactParameters::Entry &pair)
+{
+  const auto &of = pair.parameters, &inherited = scene.contact.defaults;
+  const auto  forbid = [&](const bool is_own, const std::string &entry, const std::string &value) {
+    section.require(!is_own, entry, value, "must be left out for Law = tied");
+  };
+  section.require(!is_obstacle(scene, pair.master), "Law", "tied",
+                  "must be contact for the obstacle '" + pair.master + "'");
+  forbid(of.friction != inherited.friction, "Friction", to_text(of.friction));
+  forbid(of.gap != inherited.gap, "Gap", of.gap);
+  forbid(of.interference != inherited.interference, "Interference", to_text(of.interference));
+}
+
 } // namespace
 
 void check_contact(const Scene &scene, const Origins &origins)
@@ -93,7 +110,10 @@ void check_contact(const Scene &scene, const Origins &origins)
                                    std::make_pair(pair.master, pair.slave)) == 0,
                       "Pairs", value,
                       "'" + pair.slave + "' and '" + pair.master + "' must not be paired twice");
-      pair.parameters.check(SectionCheck(pair.section(), origins, scene.dimension));
+      const SectionCheck of_pair(pair.section(), origins, scene.dimension);
+      pair.parameters.check(of_pair);
+      if (pair.parameters.law == contact::Law::tied)
+        check_tied(scene, of_pair, pair);
     }
   check_limits(scene, origins, contact::Friction::Coulomb, "Friction coefficient",
                &contact::PairParameters::friction_coefficient);

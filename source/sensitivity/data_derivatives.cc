@@ -229,13 +229,14 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim>  &solv
         }
       add(stencil.weights[k] / step, rows, result);
     }
-  // Springs are differentiated exactly, and tangential rows are known functions of the normal rows.
+  // Springs and ties are differentiated exactly, and tangential rows are known functions of the
+  // normal rows.
   result.springs      = solver.springs().row_derivatives(X, V);
   const auto &contact = solver.contact(state.load_case);
   const auto &surface = solver.surface();
-  const auto  x       = surface.gather(X);
-  result.tangents =
-    contact.tangent_row_derivatives(x, surface.gather(V), contact.rows(x), result.contact);
+  const auto  x = surface.gather(X), v = surface.gather(V);
+  result.tangents = contact.tangent_row_derivatives(x, v, contact.rows(x), result.contact);
+  result.ties     = solver.ties().row_derivatives(x, v);
   return result;
 }
 

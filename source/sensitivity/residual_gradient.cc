@@ -25,18 +25,20 @@ void add_rows(const state::StateSolver<dim>  &solver,
   both.append(qp::MultiVector(both.n_rows()));
   for (unsigned int i = 0; i < both.n_rows(); ++i)
     both(i, 1) = -adjoint.dual(i, j);
-  const auto forces    = gluing.contact_forces(both);
-  const auto lambda    = contact.forces(rows, forces[0]);
-  const auto minus_eta = contact.forces(rows, forces[1]);
+  const auto forces    = gluing.row_forces(both);
+  const auto lambda    = contact.forces(rows, forces[0].contact);
+  const auto minus_eta = contact.forces(rows, forces[1].contact);
   // The contact energy force (c.u - gap) without its gap is linear in u.
-  auto       sum  = state.surface_displacement;
-  const auto of_u = contact.energy_gradient(X, sum, minus_eta);
-  sum             = surface.gather(state::nodal_values(solver, adjoint.primal, j));
-  const auto of_w = contact.energy_gradient(X, sum, lambda);
+  auto       sum       = state.surface_displacement;
+  const auto of_u      = contact.energy_gradient(X, sum, minus_eta);
+  auto       ties      = solver.ties().energy_gradient(X, sum, forces[1].ties);
+  sum                  = surface.gather(state::nodal_values(solver, adjoint.primal, j));
+  const auto of_w      = contact.energy_gradient(X, sum, lambda);
+  const auto ties_of_w = solver.ties().energy_gradient(X, sum, forces[0].ties);
   sum.assign(sum.size(), {});
   auto total = contact.energy_gradient(X, sum, lambda);
   for (unsigned int a = 0; a < total.size(); ++a)
-    total[a] += of_u[a] - of_w[a];
+    total[a] += of_u[a] - of_w[a] + ties[a] - ties_of_w[a];
   surface.add_owned(total, gradient);
 }
 

@@ -135,6 +135,10 @@ void add_constraint_gradient(const state::StateSolver<dim>       &solver,
     solver.contact(state.load_case)
       .energy_gradient(state.surface_positions, state.surface_displacement, {forces});
   surface.add_owned(at_surface, gradient);
+  const auto of_ties = solver.gluing(state.load_case).row_forces(state.dual.lambda).front().ties;
+  surface.add_owned(solver.ties().energy_gradient(state.surface_positions,
+                                                  state.surface_displacement, of_ties),
+                    gradient);
   // reactions() treats contact rows as if they were not projected off the held directions, as
   // energy_gradient() above does.
   if (solver.held().follow_positions())

@@ -47,9 +47,9 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
   , n_tangents(narrow<unsigned int>(tangents.size()))
 {
   for (const auto &row : rows.owned)
-    // The number of all contact rows stands for rows of gluing and supports.
-    owned_contact.push_back(
-      row.source == Source::contact ? row.index : narrow<unsigned int>(rows.scales.size()));
+    // The number of all contact rows stands for rows of gluing, ties and supports.
+    owned_contact.push_back(row.source == Source::contact ? std::min(row.index, rows.n_bounded)
+                                                          : rows.n_bounded);
 }
 
 template <int dim>
@@ -228,7 +228,7 @@ void Gluing<dim>::add_to_tangents(const std::vector<double> &values, qp::MultiVe
 {
   for (unsigned int row = 0; row < rows.owned.size(); ++row)
     if (const auto &of = rows.owned[row];
-        of.source == Source::contact && of.index >= n_contact_rows())
+        of.source == Source::contact && of.index >= n_contact_rows() && of.index < rows.n_bounded)
       g(row) += of.factor * values[of.index - n_contact_rows()];
 }
 
@@ -252,14 +252,28 @@ std::vector<std::vector<double>> Gluing<dim>::gather_contact(const qp::MultiVect
 }
 
 template <int dim>
+std::vector<typename Gluing<dim>::RowForces>
+Gluing<dim>::row_forces(const qp::MultiVector &multipliers) const
+{
+  std::vector<RowForces> result;
+  for (auto &forces : gather_contact(multipliers))
+    {
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        // A row that supports hold entirely has no multiplier.
+        forces[i] = rows.scales[i] == 0. ? 0. : forces[i] / rows.scales[i];
+      const auto ties = forces.begin() + rows.n_bounded;
+      result.push_back({{forces.begin(), ties}, {ties, forces.end()}});
+    }
+  return result;
+}
+
+template <int dim>
 std::vector<std::vector<double>>
 Gluing<dim>::contact_forces(const qp::MultiVector &multipliers) const
 {
-  auto result = gather_contact(multipliers);
-  for (auto &forces : result)
-    for (std::size_t i = 0; i < forces.size(); ++i)
-      // A row that supports hold entirely has no multiplier.
-      forces[i] = rows.scales[i] == 0. ? 0. : forces[i] / rows.scales[i];
+  std::vector<std::vector<double>> result;
+  for (auto &forces : row_forces(multipliers))
+    result.push_back(std::move(forces.contact));
   return result;
 }
 
@@ -278,7 +292,9 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const qp::MultiVector   
   // lambda_i / nr_i (projected c . u - projected gap) contains -(c . q_k) (q_k . u - s_k) in
   // addition to c . u - gap, and this part goes to the supports. Add it after the sum over ranks,
   // because gathered multipliers are the same on all ranks.
-  const auto forces = contact_forces(lambda).front();
+  auto        forces  = row_forces(lambda).front().contact;
+  const auto &of_ties = row_forces(lambda).front().ties;
+  forces.insert(forces.end(), of_ties.begin(), of_ties.end());
   for (unsigned int i = 0; i < forces.size(); ++i)
     for (const auto &c : now.row(i).coefficients)
       {

@@ -88,6 +88,7 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
 {
   // The order matters, because scales need the copies of the surface nodes, and the numbers of
   // contact rows come after those of gluing and supports on the same rank.
+  n_bounded = narrow<unsigned int>(reference.contact.size() + reference.tangents.size());
   collect_surface(tearing);
   scale_rows(reference, tangents, modulus);
   // The rank of the first node of a cluster owns all rows at the nodes of the cluster, so that
@@ -320,8 +321,8 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
       }
   qp::RowSet bounded;
   for (const OwnedRow &row : owned)
-    // lambda_i >= 0 for contact, while multipliers of gluing and supports have any sign.
-    bounded.push_back(row.source == Source::contact);
+    // lambda_i >= 0 for contact, while multipliers of gluing, ties and supports have any sign.
+    bounded.push_back(row.source == Source::contact && row.index < n_bounded);
   layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id);
   for (auto &of_subdomain : entries)
     for (Entry &entry : of_subdomain)

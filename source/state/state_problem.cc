@@ -53,6 +53,14 @@ void check_reference(const StateProblem<dim> &problem)
         throw InputError(found + " in the initial mesh; check its 'Warp' and 'Curved faces'");
     }
 }
+/// Return the boundaries of contact pairs and tied pairs, ascending.
+template <int dim>
+std::vector<contact::Boundary> glued_boundaries(const Model<dim> &model)
+{
+  auto pairs = model.pairs;
+  pairs.insert(pairs.end(), model.ties.begin(), model.ties.end());
+  return contact::boundaries_of(pairs);
+}
 } // namespace
 
 template <int dim>
@@ -68,7 +76,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   , face_load(mesh.degree(), mesh.idealization())
   , resultants(mesh, face_load, model.load_cases)
   , concentrated(mesh, model.load_cases)
-  , surface(mesh, contact::boundaries_of(model.pairs))
+  , surface(mesh, glued_boundaries(model))
   , springs(mesh, model, face_load, positions)
   , factor_cache(model.feti.factorization, context)
 {
@@ -89,6 +97,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
     at.contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(), x,
                                                          directions, at.position);
   });
+  ties = std::make_unique<Ties<dim>>(surface, model.ties, mesh.degree(), x, directions);
   systems.resize(tearing.subdomains.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
@@ -196,6 +205,7 @@ void StateProblem<dim>::pair(const Field &x)
   const auto              on_surface = surface.gather(x);
   const auto              directions = held->directions(surface, x);
   for_each_position([&](PositionProblem<dim> &at) { at.contact->pair(on_surface, directions); });
+  ties->pair(on_surface, directions);
   glue(x);
 }
 
@@ -374,6 +384,7 @@ RowCoefficients<dim> StateProblem<dim>::rows_of(const PositionProblem<dim> &at,
   const auto           on_surface = surface.gather(x);
   RowCoefficients<dim> rows{at.contact->rows(on_surface), {}, held->frames(x), springs.rows(x)};
   rows.tangents = at.contact->tangent_rows(on_surface, rows.contact);
+  rows.ties     = ties->rows(on_surface);
   return rows;
 }
 

@@ -223,7 +223,8 @@ RowCoefficients<dim> StateSolver<dim>::row_derivatives(const Field       &positi
   RowCoefficients<dim> result{contact_here.row_derivatives(x, v),
                               {},
                               held().frame_derivatives(positions, velocity),
-                              springs().row_derivatives(positions, velocity)};
+                              springs().row_derivatives(positions, velocity),
+                              ties().row_derivatives(x, v)};
   if (contact_here.has_friction())
     result.tangents =
       contact_here.tangent_row_derivatives(x, v, contact_here.rows(x), result.contact);

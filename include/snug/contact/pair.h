@@ -50,6 +50,19 @@ inline Names names(Slave)
     {"first", "side that is named first"}};
 }
 
+/// Law of the forces between two sides.
+enum class Law
+{
+  contact,
+  tied ///< the sides move together, with forces of any direction
+};
+inline Names names(Law)
+{
+  return {{"contact", "pressure, and friction if there is any"},
+          {"tied", "the sides stay together as they are, also across a gap, and transmit forces of "
+                   "any direction"}};
+}
+
 /// Law of the tangential forces of a contact.
 enum class Friction
 {
@@ -68,6 +81,7 @@ inline Names names(Friction)
 /// `subsection Pair SLAVE: MASTER`.
 struct PairParameters
 {
+  Law                   law = Law::contact;
   std::optional<Method> method; ///< empty: chosen by whether the meshes match
   Slave                 slave = Slave::finer;
   /// maximum distance of slave nodes with a row from the master [length]; 0: no limit

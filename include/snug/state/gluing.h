@@ -45,7 +45,7 @@ public:
   /// Return the global number of dual rows of all ranks, including contact rows.
   unsigned int n_rows() const { return rows.n_global; }
   /// Return the number of normal rows of contact.
-  unsigned int n_contact_rows() const { return rows.scales.size() - n_tangents; }
+  unsigned int n_contact_rows() const { return rows.n_bounded - n_tangents; }
 
   /// Return nr of each contact row; the physical force is lambda / nr. Tangential rows follow the
   /// normal rows. The scale is 0 where the supports at its nodes hold a row entirely.
@@ -85,11 +85,20 @@ public:
   std::vector<unsigned int> vanished_rows() const;
 
   /// Return the values of the owned contact rows on all ranks, per column: normal rows, then
-  /// tangential rows. Collective.
+  /// tangential rows, then rows of ties. Collective.
   std::vector<std::vector<double>> gather_contact(const qp::MultiVector &owned) const;
 
-  /// Return lambda_i / nr_i of the contact rows on all ranks, per column of @p multipliers: the
-  /// forces of the rows, or their derivatives. Rows without a multiplier have none. Collective.
+  /// Forces of the rows of gather_contact().
+  struct RowForces
+  {
+    std::vector<double> contact; ///< of normal rows, then tangential rows
+    std::vector<double> ties;
+  };
+  /// Return lambda_i / nr_i of the contact rows and of ties on all ranks, per column of
+  /// @p multipliers: the forces of the rows, or their derivatives. Rows without a multiplier have
+  /// none. Collective.
+  std::vector<RowForces> row_forces(const qp::MultiVector &multipliers) const;
+  /// Return the parts RowForces::contact.
   std::vector<std::vector<double>> contact_forces(const qp::MultiVector &multipliers) const;
 
   /// Return the friction cones of the owned contacts, for the law of each contact and its area

@@ -21,16 +21,18 @@ struct RowCoefficients
   std::vector<contact::Row<dim>>              tangents; ///< tangential rows of contacts
   std::vector<supports::ConstraintFrame<dim>> held;     ///< per held node
   std::vector<SpringRow<dim>>                 springs = {};
+  std::vector<contact::Row<dim>>              ties    = {}; ///< rows of tied pairs
 
-  /// @name Normal rows, then tangential rows
+  /// @name Normal rows, then tangential rows, then rows of ties
   /// @{
   unsigned int n_rows() const
   {
-    return static_cast<unsigned int>(contact.size() + tangents.size());
+    return static_cast<unsigned int>(contact.size() + tangents.size() + ties.size());
   }
   const contact::Row<dim> &row(unsigned int i) const
   {
-    return i < contact.size() ? contact[i] : tangents[i - contact.size()];
+    const auto n = contact.size(), n_bounded = n + tangents.size();
+    return i < n ? contact[i] : i < n_bounded ? tangents[i - n] : ties[i - n_bounded];
   }
   /// @}
 };
@@ -56,7 +58,7 @@ public:
   enum class Source : unsigned int
   {
     constant, ///< no quantity
-    contact,  ///< coefficient `item` of RowCoefficients::row(`index`)
+    contact,  ///< coefficient `item` of RowCoefficients::row(`index`), also of ties
     spring,   ///< coefficient `item` of RowCoefficients::springs[`index`]
     held      ///< direction `item` of held node `index`
   };
@@ -108,7 +110,8 @@ public:
   std::vector<unsigned int>      copies; ///< per surface node
   /// held node of each surface node, or held.n_nodes()
   std::vector<unsigned int> held_of_surface;
-  unsigned int              n_global = 0;
+  unsigned int              n_global  = 0;
+  unsigned int              n_bounded = 0; ///< number of normal and tangential rows
 
 private:
   /// Subdomains of the copies of a node, ascending, by global node. Only the owner of the rows of

@@ -116,6 +116,7 @@ struct Model
   std::vector<supports::PointSupport<dim>> point_supports;
   std::vector<supports::Spring<dim>>       springs;
   std::vector<contact::Pair>               pairs;
+  std::vector<contact::Pair>               ties = {}; ///< tied pairs
   /// minimum of a cell; meshes and designs with a cell below it are rejected
   double               least_scaled_jacobian = 0.;
   feti::FetiParameters feti;

@@ -4,6 +4,7 @@
 #include <snug/contact/contact.h>
 #include <snug/feti/loaded_problem.h>
 #include <snug/state/gluing.h>
+#include <snug/state/ties.h>
 
 #include <memory>
 

@@ -73,6 +73,7 @@ public:
   mesh::Surface<dim>                                   surface;
   Springs<dim>                                         springs;
   std::unique_ptr<supports::DirichletConstraints<dim>> held;
+  std::unique_ptr<Ties<dim>>                           ties;
   std::vector<std::unique_ptr<Assembler<dim>>>         assemblers;
   std::vector<feti::SubdomainSystem>                   systems;
   feti::FactorCache                                    factor_cache;

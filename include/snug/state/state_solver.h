@@ -102,6 +102,7 @@ public:
   const ResultantLoads<dim>    &resultants() const { return problem->resultants; }
   const ConcentratedLoads<dim> &concentrated() const { return problem->concentrated; }
   const Springs<dim>           &springs() const { return problem->springs; }
+  const Ties<dim>              &ties() const { return *problem->ties; }
   /// Return f of a load case at @p positions. Collective.
   feti::PrimalVectors              loads(const Field &positions, unsigned int load_case) const;
   const elasticity::FaceLoad<dim> &face_load() const { return problem->face_load; }
