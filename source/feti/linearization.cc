@@ -146,11 +146,15 @@ void Linearization::weight_rows()
       }
 }
 
-/// Return the equality rows without springs. With zeros on springs, products of the vectors of soft
-/// modes with F need no D.
+/// Return the equality rows without ties and springs. Ties would couple all unknowns of a boundary,
+/// and so would springs. With zeros on springs, products of the vectors of soft modes with F need
+/// no D.
 qp::RowSet Linearization::rows_of_soft_modes() const
 {
   auto result = qp::complement(contact_rows());
+  for (unsigned int row = 0; row < result.size(); ++row)
+    if (layout().tie_rows()[row])
+      result[row] = 0;
   for (unsigned int row = 0; row < D.size(); ++row)
     if (D[row] > 0.)
       result[row] = 0;

@@ -77,9 +77,11 @@ qp::MultiVector deinterleave(const std::vector<double> &rows, unsigned int n, un
 RowLayout::RowLayout(MPI_Comm                               communicator,
                      const qp::RowSet                      &contact_rows,
                      const std::vector<std::vector<Entry>> &entries,
-                     unsigned int                           first_subdomain)
-  : comm(communicator), is_contact(contact_rows)
+                     unsigned int                           first_subdomain,
+                     const qp::RowSet                      &tie_rows)
+  : comm(communicator), is_contact(contact_rows), is_tie(tie_rows)
 {
+  is_tie.resize(is_contact.size(), false);
   int n_ranks;
   MPI_Comm_size(comm, &n_ranks);
   std::vector<unsigned int> first(n_ranks + 1, 0);

@@ -319,11 +319,14 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
                                   message.index, message.item});
           }
       }
-  qp::RowSet bounded;
+  qp::RowSet bounded, tied;
   for (const OwnedRow &row : owned)
-    // lambda_i >= 0 for contact, while multipliers of gluing, ties and supports have any sign.
-    bounded.push_back(row.source == Source::contact && row.index < n_bounded);
-  layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id);
+    {
+      // lambda_i >= 0 for contact, while multipliers of gluing, ties and supports have any sign.
+      bounded.push_back(row.source == Source::contact && row.index < n_bounded);
+      tied.push_back(row.source == Source::contact && row.index >= n_bounded);
+    }
+  layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id, tied);
   for (auto &of_subdomain : entries)
     for (Entry &entry : of_subdomain)
       // local_row is global until here: local rows are known once the layout has all entries.

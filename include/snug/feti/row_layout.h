@@ -42,16 +42,20 @@ public:
    * @param[in] contact_rows flag of each owned row of contact, normal or tangential.
    * @param[in] entries of each subdomain of this rank.
    * @param[in] first_subdomain global id of the first subdomain of this rank.
+   * @param[in] tie_rows flag of each owned row of tied pairs; empty: there are none.
    */
   RowLayout(MPI_Comm                               communicator,
             const qp::RowSet                      &contact_rows,
             const std::vector<std::vector<Entry>> &entries,
-            unsigned int                           first_subdomain);
+            unsigned int                           first_subdomain,
+            const qp::RowSet                      &tie_rows = {});
 
   MPI_Comm          communicator() const { return comm; }
   unsigned int      n_owned() const { return narrow<unsigned int>(is_contact.size()); }
   unsigned int      n_local() const { return narrow<unsigned int>(local_rows.size()); }
   const qp::RowSet &contact_rows() const { return is_contact; }
+  /// Return flags of the equality rows that couple unknowns of many nodes.
+  const qp::RowSet &tie_rows() const { return is_tie; }
   /// Return the global row of an owned row.
   unsigned int global_row(unsigned int owned_row) const { return first_owned + owned_row; }
   unsigned int global_row_of_local(unsigned int local_row) const { return local_rows[local_row]; }
@@ -85,7 +89,7 @@ private:
                                  const std::vector<T> &values) const;
 
   MPI_Comm                  comm;
-  qp::RowSet                is_contact;
+  qp::RowSet                is_contact, is_tie;
   unsigned int              first_owned;  ///< first owned row, as a global row
   std::vector<unsigned int> local_rows;   ///< global rows: equality rows, then contact rows
   unsigned int              n_equalities; ///< number of local equality rows
