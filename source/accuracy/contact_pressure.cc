@@ -49,11 +49,10 @@ private:
 /// step may need the values of the steps before.
 template <int dim>
 std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
-                                 const unsigned int             load_case,
+                                 const contact::Contact<dim>   &contact,
                                  const unsigned int             pair,
                                  const std::vector<double>     &of_rows)
 {
-  const auto         &contact = solver.contact(load_case);
   const auto         &surface = solver.surface();
   std::vector<double> values(surface.n_nodes(), 0.);
   std::vector<bool>   has_row(values.size(), false);
@@ -80,14 +79,14 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
 
 template <int dim>
 ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>  &solver,
+                                      const contact::Contact<dim>    &contact,
                                       const state::ContactState<dim> &state,
                                       const std::vector<double>      &of_rows)
   : solver(solver)
-  , load_case(state.load_case)
-  , positions(solver.contact(load_case).placed_surface().to_space(state.surface_positions))
+  , contact(contact)
+  , positions(contact.placed_surface().to_space(state.surface_positions))
   , shape(solver.mesh().degree())
 {
-  const auto &contact = solver.contact(load_case);
   const auto &surface = contact.placed_surface().surface();
   SNUG_ASSERT_EQUAL(of_rows.size(), contact.n_rows());
   for (const auto &pair : contact.pairs())
@@ -98,7 +97,7 @@ ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>  &solver,
         master_of[boundary].push_back(pairs.size());
       pairs.push_back(
         std::make_unique<SlaveSide>(surface, pair, positions, shape,
-                                    nodal_values(solver, load_case, pairs.size(), of_rows)));
+                                    nodal_values(solver, contact, pairs.size(), of_rows)));
     }
 }
 
@@ -141,16 +140,16 @@ double ContactPressure<dim>::value(const Face                   &face,
     }
   if (const auto masters = master_of.find(boundary); masters != master_of.end())
     for (const unsigned int pair : masters->second)
-      sum += on_master * pairs[pair]->at(solver.motion(load_case, face.body).point(x));
+      sum += on_master * pairs[pair]->at(contact.placement().of_body(face.body).point(x));
   return sum;
 }
 
 template std::vector<double> nodal_values(const state::StateSolver<2> &,
-                                          unsigned int,
+                                          const contact::Contact<2> &,
                                           unsigned int,
                                           const std::vector<double> &);
 template std::vector<double> nodal_values(const state::StateSolver<3> &,
-                                          unsigned int,
+                                          const contact::Contact<3> &,
                                           unsigned int,
                                           const std::vector<double> &);
 template class ContactPressure<2>;

@@ -81,7 +81,8 @@ public:
       areas.push_back(point.area);
     rows             = solver.contact(load_case).rows(state.surface_positions);
     const auto &feti = solver.feti(state);
-    forces           = solver.gluing(load_case).contact_forces(solution.dual);
+    forces           = solver.gluing(load_case).row_forces(solution.dual);
+    positions        = state.surface_positions;
     norms            = state::energy_norms(feti, solution.primal);
     torn = continuous = solution.primal;
     state::make_continuous(feti, nullptr, continuous);
@@ -100,12 +101,13 @@ public:
     if (derivative.motion.n_columns() > 0)
       z.displacement = sum(z.displacement, -1., at_nodes(derivative.motion, 0));
     const auto &contact = solver.contact(load_case);
-    const auto &here    = forces[column[j]];
+    const auto &here    = forces[column[j]].contact;
     for (unsigned int i = 0; i < contact.n_rows(); ++i)
       z.pressures.push_back(pressure(here[i], areas[i]));
     if (contact.has_friction())
       for (const auto &force : contact.forces(rows, here).tangential)
         z.shears.push_back(-pressure(1., areas[z.shears.size()]) * force);
+    z.ties    = solver.ties().tractions(positions, forces[column[j]].ties);
     z.loads   = derivative.load;
     z.thermal = -derivative.stiffness;
     z.more    = &derivative;
@@ -121,14 +123,16 @@ public:
   double norm(const unsigned int j) const { return norms[column[j]]; }
 
 private:
-  const state::StateSolver<dim>   &solver;
-  const unsigned int               load_case;
-  std::vector<unsigned int>        column; ///< column of each response that needs one
-  std::vector<double>              areas;  ///< areas of the contact rows
-  std::vector<contact::Row<dim>>   rows;
-  std::vector<std::vector<double>> forces; ///< of the contact rows, per column
-  feti::PrimalVectors              torn, continuous;
-  std::vector<double>              norms; ///< energy norms of the columns
+  const state::StateSolver<dim> &solver;
+  const unsigned int             load_case;
+  std::vector<unsigned int>      column; ///< column of each response that needs one
+  std::vector<double>            areas;  ///< areas of the contact rows
+  std::vector<contact::Row<dim>> rows;
+  /// of the rows of contact and ties, per column
+  std::vector<typename state::Gluing<dim>::RowForces> forces;
+  typename mesh::Surface<dim>::Field                  positions; ///< of the surface
+  feti::PrimalVectors                                 torn, continuous;
+  std::vector<double>                                 norms; ///< energy norms of the columns
 };
 
 /// Return the displacement and the pressures of the state.
@@ -147,6 +151,8 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
       for (int d = 0; d < dim; ++d)
         u.shears.back()[d] = point.force == 0. ? 0. : -point.mean / point.force * point.shear[d];
     }
+  const auto forces = solver.gluing(state.load_case).row_forces(state.dual.lambda).front();
+  u.ties            = solver.ties().tractions(state.surface_positions, forces.ties);
   return u;
 }
 
@@ -154,7 +160,7 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
 template <int dim>
 LoadedDisplacement<dim> unloaded(const mesh::Field<dim> &displacement, const std::size_t n_rows)
 {
-  return {displacement, std::vector<double>(n_rows, 0.), {}, 0., 0.};
+  return {displacement, std::vector<double>(n_rows, 0.), {}, {}, 0., 0.};
 }
 
 /// Estimates by a given state and given adjoints, and the ratios of the jumps that the solver left

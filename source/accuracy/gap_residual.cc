@@ -116,7 +116,7 @@ std::vector<double> GapResidual<dim>::values(const std::vector<double> &of_rows)
 {
   std::vector<std::vector<double>> nodal;
   for (unsigned int p = 0; p < solver.contact(load_case).pairs().size(); ++p)
-    nodal.push_back(nodal_values(solver, load_case, p, of_rows));
+    nodal.push_back(nodal_values(solver, solver.contact(load_case), p, of_rows));
   std::vector<double> result;
   for (const auto &point : points)
     {

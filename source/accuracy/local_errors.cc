@@ -236,36 +236,37 @@ void LocalErrors<dim>::add_springs(const Loaded &of, std::vector<Residual> &r) c
 }
 
 template <int dim>
-void LocalErrors<dim>::add_contact(const Loaded &of, std::vector<Residual> &r) const
+void LocalErrors<dim>::add_rows(const RowTractions &rows, std::vector<Residual> &r) const
 {
-  const ContactPressure<dim> contact(solver, state, of.pressures);
-  // components in space of the friction traction on the slave side
-  std::vector<std::unique_ptr<ContactPressure<dim>>> shears;
-  for (int d = 0; d < dim && !of.shears.empty(); ++d)
+  const auto                &contact = *rows.contact;
+  const ContactPressure<dim> pressure(solver, contact, state, rows.pressures);
+  // components in space of the traction on the slave side
+  std::vector<std::unique_ptr<ContactPressure<dim>>> tractions;
+  for (int d = 0; d < dim && !rows.tractions.empty(); ++d)
     {
       std::vector<double> component;
-      for (const auto &shear : of.shears)
-        component.push_back(shear[d]);
-      shears.push_back(std::make_unique<ContactPressure<dim>>(solver, state, component));
+      for (const auto &traction : rows.tractions)
+        component.push_back(traction[d]);
+      tractions.push_back(
+        std::make_unique<ContactPressure<dim>>(solver, contact, state, component));
     }
   for (const auto &face : mesh.boundary_faces())
-    if (contact.is_on(face))
+    if (pressure.is_on(face))
       {
         const auto  X       = fields.positions(face.cell);
         const auto &on_face = face_points[face.number];
         for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
           {
-            const auto  &shape = on_face.shapes[q];
-            const auto   x     = elasticity::value(shape, X);
-            const auto   area  = area_vector(shape, face.number, X);
-            const double p     = contact.value(face, shape.value, x);
-            auto         force = -p * area;
-            if (!shears.empty())
+            const auto &shape = on_face.shapes[q];
+            const auto  x     = elasticity::value(shape, X);
+            const auto  area  = area_vector(shape, face.number, X);
+            auto        force = -pressure.value(face, shape.value, x) * area;
+            if (!tractions.empty())
               {
-                dealii::Tensor<1, dim> shear;
+                dealii::Tensor<1, dim> traction;
                 for (int d = 0; d < dim; ++d)
-                  shear[d] = shears[d]->value(face, shape.value, x, -1.);
-                force += area.norm() * solver.motion(state.load_case, face.body).vector_back(shear);
+                  traction[d] = tractions[d]->value(face, shape.value, x, -1.);
+                force += area.norm() * contact.placement().of_body(face.body).vector_back(traction);
               }
             if (force.norm_square() != 0.)
               elasticity::add_force<dim>(on_face.functions[q], force, r[face.cell]);
@@ -282,8 +283,12 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
   add_interior_faces(of, r);
   add_loads(of, r);
   add_springs(of, r);
-  if (solver.contact(state.load_case).n_rows() > 0)
-    add_contact(of, r);
+  const auto &contact = solver.contact(state.load_case);
+  if (contact.n_rows() > 0)
+    add_rows({&contact, of.pressures, of.shears}, r);
+  if (!of.ties.empty())
+    add_rows({&solver.ties().rows_in_contact(), std::vector<double>(of.ties.size(), 0.), of.ties},
+             r);
   return r;
 }
 

@@ -142,7 +142,9 @@ std::vector<std::vector<double>> SurfaceLayer<dim>::works(const std::vector<Load
   for (const auto &one : of)
     contact.push_back(solver.contact(state.load_case).n_rows() == 0
                         ? nullptr
-                        : std::make_unique<ContactPressure<dim>>(solver, state, one.pressures));
+                        : std::make_unique<ContactPressure<dim>>(solver,
+                                                                 solver.contact(state.load_case),
+                                                                 state, one.pressures));
   std::vector<std::vector<double>> result(mesh.cells().size(), std::vector<double>(of.size(), 0.));
   for (const auto &face : mesh.boundary_faces())
     {

@@ -11,7 +11,7 @@ qp::WarmStart transferred(const state::StateSolver<dim>  &from,
   std::vector<double> pressures;
   for (const auto &point : state.contact)
     pressures.push_back(point.pressure);
-  const ContactPressure<dim> pressure(from, state, pressures);
+  const ContactPressure<dim> pressure(from, from.contact(state.load_case), state, pressures);
   const auto                &contact  = to.contact(state.load_case);
   const auto                 x        = to.surface().gather(positions);
   const auto                 in_space = contact.placed_surface().to_space(x);

@@ -1,5 +1,7 @@
 #include <snug/state/ties.h>
 
+#include <algorithm>
+
 namespace snug::state {
 template <int dim>
 Ties<dim>::Ties(const mesh::Surface<dim>         &surface,
@@ -70,13 +72,43 @@ typename Ties<dim>::Field Ties<dim>::energy_gradient(const Field               &
 {
   if (!contact)
     return Field(positions.size());
-  const unsigned int  n = contact->n_rows();
-  std::vector<double> of_all(forces.begin(), forces.begin() + n);
-  auto                next = forces.begin() + n;
-  for (const auto &tangent : contact->tangents())
-    of_all.push_back(tangent.is_held ? 0. : *next++);
   return contact->coefficient_gradient(positions, displacement,
-                                       contact->forces(contact->rows(positions), of_all));
+                                       contact->forces(contact->rows(positions),
+                                                       with_held(forces)));
+}
+
+/// Return the forces with zeros at the tangential rows that rows() leaves out.
+template <int dim>
+std::vector<double> Ties<dim>::with_held(const std::vector<double> &forces) const
+{
+  auto                next = forces.begin() + contact->n_rows();
+  std::vector<double> result(forces.begin(), next);
+  for (const auto &tangent : contact->tangents())
+    result.push_back(tangent.is_held ? 0. : *next++);
+  return result;
+}
+
+template <int dim>
+std::vector<dealii::Tensor<1, dim>> Ties<dim>::tractions(const Field               &positions,
+                                                         const std::vector<double> &forces) const
+{
+  std::vector<dealii::Tensor<1, dim>> result;
+  if (!contact)
+    return result;
+  const auto   rows    = contact->rows(positions);
+  const auto   of_rows = contact->forces(rows, with_held(forces));
+  const auto   areas   = contact->areas(positions);
+  const double largest = *std::max_element(areas.begin(), areas.end());
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      auto force = of_rows.normal[i] * rows[i].normal;
+      if (!of_rows.tangential.empty())
+        force += of_rows.tangential[i];
+      // The area may be round-off, as on the axis with degree 2.
+      result.push_back(areas[i] > 1e-10 * largest ? -1. / areas[i] * force
+                                                  : dealii::Tensor<1, dim>());
+    }
+  return result;
 }
 
 template class Ties<2>;

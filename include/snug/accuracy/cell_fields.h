@@ -15,7 +15,9 @@ struct LoadedDisplacement
   std::vector<double> pressures;
   /// friction tractions of the contact rows on the slave sides, in space [force / length^2]; empty:
   /// none
-  std::vector<dealii::Tensor<1, dim>> shears  = {};
+  std::vector<dealii::Tensor<1, dim>> shears = {};
+  /// tractions of the normal rows of ties on the slave sides [force / length^2]; empty: none
+  std::vector<dealii::Tensor<1, dim>> ties    = {};
   double                              loads   = 1.; ///< factor of the loads of the load case
   double                              thermal = 1.; ///< factor of its thermal strains
   /// further traction and stress that act; null: none

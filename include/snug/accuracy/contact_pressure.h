@@ -13,7 +13,7 @@ namespace snug::accuracy {
 /// interpolated values, all other nodes take 0.
 template <int dim>
 std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
-                                 unsigned int                   load_case,
+                                 const contact::Contact<dim>   &contact,
                                  unsigned int                   pair,
                                  const std::vector<double>     &of_rows);
 
@@ -29,9 +29,10 @@ class ContactPressure
 public:
   using Face = typename mesh::BodyMesh<dim>::Face;
 
-  /// @p of_rows are in the order of the contact rows. The solver must outlive this object.
-  /// Collective.
+  /// @p of_rows are in the order of the rows of @p contact, in the geometry of @p state. References
+  /// must outlive this object. Collective.
   ContactPressure(const state::StateSolver<dim>  &solver,
+                  const contact::Contact<dim>    &contact,
                   const state::ContactState<dim> &state,
                   const std::vector<double>      &of_rows);
   ~ContactPressure();
@@ -56,7 +57,7 @@ private:
   using Boundary = std::pair<unsigned int, unsigned int>; ///< body and boundary
 
   const state::StateSolver<dim>          &solver;
-  const unsigned int                      load_case;
+  const contact::Contact<dim>            &contact;
   typename mesh::Surface<dim>::Field      positions; ///< in space
   faces::FaceShape<dim>                   shape;
   std::vector<std::unique_ptr<SlaveSide>> pairs;

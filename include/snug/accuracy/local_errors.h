@@ -29,6 +29,7 @@ struct CellErrors
  *   t = (sigma_h + sigma_h') n / 2   between cells, with sigma_h' of the neighbor,
  *   t = traction of the loads        on the boundary,
  *   t = -p n                         on both sides of contact (ContactPressure), plus friction,
+ *   t of the rows                    on both sides of ties, with opposite signs,
  *   t = -k (q . u) q                 of springs with the stiffness k per area along the unit
  *                                    vector q,
  * and with held directions at supports.
@@ -78,8 +79,15 @@ private:
   Nodes body_forces(unsigned int cell, const Loaded &of) const;
   void  add_interior_faces(const Loaded &of, std::vector<Residual> &r) const;
   void  add_loads(const Loaded &of, std::vector<Residual> &r) const;
-  void  add_springs(const Loaded &of, std::vector<Residual> &r) const;
-  void  add_contact(const Loaded &of, std::vector<Residual> &r) const;
+  /// Pressures and tractions of the rows of contact or of ties.
+  struct RowTractions
+  {
+    const contact::Contact<dim>        *contact;
+    std::vector<double>                 pressures; ///< empty: none
+    std::vector<dealii::Tensor<1, dim>> tractions; ///< on the slave side; empty: none
+  };
+  void                  add_rows(const RowTractions &rows, std::vector<Residual> &r) const;
+  void                  add_springs(const Loaded &of, std::vector<Residual> &r) const;
   std::vector<Residual> on_faces(const Loaded &of) const;
 };
 } // namespace snug::accuracy

@@ -191,6 +191,9 @@ public:
                                                 const std::vector<Row<dim>> &derivatives) const;
   /// @}
 
+  /// Return the motions of bodies and obstacles to their places.
+  const Position<dim> &placement() const { return position; }
+
   /// Return the surface in space, with the transformations to space.
   const PlacedSurface<dim> &placed_surface() const { return placed; }
 

@@ -46,7 +46,17 @@ public:
                         const Field               &displacement,
                         const std::vector<double> &forces) const;
 
+  /// Return the tractions on the slave sides at the slave nodes of the normal rows, for the forces
+  /// of rows() at @p positions [force / length^2]. Rows without an area have none.
+  std::vector<dealii::Tensor<1, dim>> tractions(const Field               &positions,
+                                                const std::vector<double> &forces) const;
+
+  /// Return the contact whose rows are those of the ties. There must be ties.
+  const contact::Contact<dim> &rows_in_contact() const { return *contact; }
+
 private:
+  std::vector<double> with_held(const std::vector<double> &forces) const;
+
   std::vector<contact::Row<dim>> joined(std::vector<contact::Row<dim>>        rows,
                                         const std::vector<contact::Row<dim>> &tangents) const;
 
