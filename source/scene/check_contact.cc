@@ -2,6 +2,7 @@
 #include <snug/scene/check.h>
 
 #include <algorithm>
+#include <set>
 
 namespace snug::scene {
 namespace {
@@ -83,6 +84,23 @@ void check_tied(const Scene                             &scene,
   };
   section.require(!is_obstacle(scene, pair.master), "Law", "tied",
                   "must be contact for the obstacle '" + pair.master + "'");
+  const auto bodies = {split_face(geometry::face_list(pair.slave).front()).first,
+                       split_face(geometry::face_list(pair.master).front()).first};
+  for (const auto &load_case : scene.load_cases)
+    {
+      std::set<std::string> motions;
+      for (const auto &body : bodies)
+        {
+          std::string motion;
+          for (const auto &[name, text] : load_case.positions)
+            if (name == body)
+              motion += text + ";";
+          motions.insert(motion);
+        }
+      section.require(motions.size() == 1, "Law", "tied",
+                      "must be contact, because load case '" + load_case.name +
+                        "' moves the bodies differently");
+    }
   forbid(of.friction != inherited.friction, "Friction", to_text(of.friction));
   forbid(of.gap != inherited.gap, "Gap", of.gap);
   forbid(of.interference != inherited.interference, "Interference", to_text(of.interference));

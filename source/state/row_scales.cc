@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace snug::state {
 template <int dim>
@@ -65,6 +66,55 @@ double GluingRows<dim>::stiffness_at(const unsigned int surface_node, const doub
   return modulus * mesh.idealization().weight(x[surface_node]) * h;
 }
 
+/// Set the scales of tied rows that depend on the rows before them to 0, as where several tied
+/// pairs meet. In the factorization L L' of the Gram matrix of unit rows, without pivoting, the
+/// square of the diagonal entry is the squared distance of the row from the rows before it.
+template <int dim>
+void GluingRows<dim>::drop_dependent_ties(const RowCoefficients<dim> &reference)
+{
+  const double dependent = 1e-8;                                            // squared distance
+  using Part             = std::pair<unsigned int, dealii::Tensor<1, dim>>; // place of a row, c
+  // Rows in the order of their first nodes have neighbours at small distances.
+  std::vector<unsigned int> order;
+  for (unsigned int i = n_bounded; i < reference.n_rows(); ++i)
+    if (scales[i] > 0.)
+      order.push_back(i);
+  const auto first_node = [&](unsigned int i) {
+    return reference.row(i).coefficients.front().first;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](unsigned int i, unsigned int j) { return first_node(i) < first_node(j); });
+  std::vector<std::vector<Part>>   rows_at(surface.n_nodes());
+  std::vector<std::vector<double>> L(order.size()); // from the first column that is not zero
+  for (unsigned int i = 0; i < order.size(); ++i)
+    {
+      std::map<unsigned int, double> gram;
+      for (const auto &[node, coefficient] : reference.row(order[i]).coefficients)
+        {
+          const auto c = projected(node, coefficient, reference.held) / scales[order[i]];
+          rows_at[node].emplace_back(i, c);
+          for (const auto &[j, other] : rows_at[node])
+            gram[j] += c * other / copies[node];
+        }
+      const unsigned int begin = gram.begin()->first;
+      auto              &row   = L[i];
+      row.assign(i + 1 - begin, 0.);
+      for (const auto &[j, value] : gram)
+        row[j - begin] = value;
+      for (unsigned int j = begin; j <= i; ++j)
+        {
+          const unsigned int offset = j + 1 - narrow<unsigned int>(L[j].size());
+          for (unsigned int k = std::max(begin, offset); k < j; ++k)
+            row[j - begin] -= row[k - begin] * L[j][k - offset];
+          if (j < i)
+            row[j - begin] = L[j].back() > 0. ? row[j - begin] / L[j].back() : 0.;
+        }
+      row.back() = row.back() > dependent ? std::sqrt(row.back()) : 0.;
+      if (row.back() == 0.)
+        scales[order[i]] = 0.;
+    }
+}
+
 /// Compute the scales. A coefficient c spread evenly over m copies has the square |c|^2 / m, so
 /// scaled rows have unit length. Use the reference geometry only, so that nr does not depend on the
 /// design. A row whose nodes are held in its direction has the scale 0. Tangential rows have the
@@ -92,6 +142,7 @@ void GluingRows<dim>::scale_rows(const RowCoefficients<dim>          &reference,
         held_tangents[row] =
           stiffness_at(reference.tangents[i].coefficients.front().first, modulus);
     }
+  drop_dependent_ties(reference);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                    \

@@ -102,8 +102,9 @@ public:
   std::unique_ptr<feti::RowLayout> layout;
   std::vector<std::vector<Entry>>  entries; ///< per subdomain
   std::vector<OwnedRow>            owned;
-  std::vector<double>              scales;        ///< nr per RowCoefficients::row(), or 0
-  std::vector<double>              spring_scales; ///< nr per RowCoefficients::springs
+  /// nr per RowCoefficients::row(), or 0 if the row is left out
+  std::vector<double> scales;
+  std::vector<double> spring_scales; ///< nr per RowCoefficients::springs
   /// Stiffness of the bodies [force / length] at the tangential rows that are held
   /// (contact::Tangent) and displaced, by RowCoefficients::row().
   std::map<unsigned int, double> held_tangents;
@@ -125,6 +126,7 @@ private:
   void   scale_rows(const RowCoefficients<dim>          &reference,
                     const std::vector<contact::Tangent> &tangents,
                     double                               modulus);
+  void   drop_dependent_ties(const RowCoefficients<dim> &reference);
   bool   is_displaced(unsigned int i, const RowCoefficients<dim> &reference) const;
   double stiffness_at(unsigned int surface_node, double modulus) const;
   Copies collect_copies(const mesh::Tearing                        &tearing,
