@@ -53,14 +53,6 @@ void check_reference(const StateProblem<dim> &problem)
         throw InputError(found + " in the initial mesh; check its 'Warp' and 'Curved faces'");
     }
 }
-/// Return the boundaries of contact pairs and tied pairs, ascending.
-template <int dim>
-std::vector<contact::Boundary> glued_boundaries(const Model<dim> &model)
-{
-  auto pairs = model.pairs;
-  pairs.insert(pairs.end(), model.ties.begin(), model.ties.end());
-  return contact::boundaries_of(pairs);
-}
 } // namespace
 
 template <int dim>
@@ -141,8 +133,8 @@ void StateProblem<dim>::for_each_position(
     catch (const InputError &error)
       {
         const auto first = std::find(problem_of_case.begin(), problem_of_case.end(), i);
-        const auto where = place_of(model, narrow<unsigned int>(first - problem_of_case.begin()));
-        throw InputError(error.text() + where, error.place(), error.wrong());
+        const auto c     = narrow<unsigned int>(first - problem_of_case.begin());
+        throw InputError(error.text() + place_of(model, c), error.place(), error.wrong());
       }
 }
 
@@ -213,9 +205,7 @@ template <int dim>
 std::vector<bool> StateProblem<dim>::moved_subdomains(const Field &positions) const
 {
   std::vector<bool> moved(systems.size(), present.positions.empty());
-  if (present.positions.empty())
-    return moved;
-  for (unsigned int s = 0; s < systems.size(); ++s)
+  for (unsigned int s = 0; s < systems.size() && !present.positions.empty(); ++s)
     for (const unsigned int cell : tearing.subdomains[s].cells)
       for (const unsigned int node : mesh.cells()[cell].nodes)
         if (positions[node] != present.positions[node])
@@ -253,7 +243,6 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
   return result;
 }
 
-/// Assemble the matrices and loads of a geometry.
 template <int dim>
 void StateProblem<dim>::assemble(const Field &positions, const std::vector<bool> &moved)
 {
@@ -381,11 +370,11 @@ template <int dim>
 RowCoefficients<dim> StateProblem<dim>::rows_of(const PositionProblem<dim> &at,
                                                 const Field                &x) const
 {
-  const auto           on_surface = surface.gather(x);
-  RowCoefficients<dim> rows{at.contact->rows(on_surface), {}, held->frames(x), springs.rows(x)};
-  rows.tangents = at.contact->tangent_rows(on_surface, rows.contact);
-  rows.ties     = ties->rows(on_surface);
-  return rows;
+  const auto on_surface = surface.gather(x);
+  auto       contact    = at.contact->rows(on_surface);
+  auto       tangents   = at.contact->tangent_rows(on_surface, contact);
+  return {std::move(contact), std::move(tangents), held->frames(x), springs.rows(x),
+          ties->rows(on_surface)};
 }
 
 template <int dim>

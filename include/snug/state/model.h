@@ -134,6 +134,15 @@ double largest_modulus(const Model<dim> &model)
   return result;
 }
 
+/// Return the boundaries of contact pairs and tied pairs, ascending.
+template <int dim>
+std::vector<contact::Boundary> glued_boundaries(const Model<dim> &model)
+{
+  auto pairs = model.pairs;
+  pairs.insert(pairs.end(), model.ties.begin(), model.ties.end());
+  return contact::boundaries_of(pairs);
+}
+
 /// Return " in load case 'NAME'", for messages about the position of a load case. The text is empty
 /// if all load cases have one position.
 template <int dim>
