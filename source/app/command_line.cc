@@ -166,7 +166,7 @@ JSON.
     --petsc "-NAME VALUE ..."
                         set options of PETSc, for example another package for K^+:
                         --petsc "-kplus_pc_factor_mat_solver_type mumps"
-    --leave-out "tie, equation"
+    --leave-out "plastic, equation"
                         run the model of a deck without these of its parts, which have
                         no translation
     --restart           continue an interrupted optimization

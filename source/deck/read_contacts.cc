@@ -17,7 +17,10 @@ namespace {
 /// Gaps below this fraction of a face are those of rounded positions.
 const double closed_gap = 0.01;
 
-/// This class reads the contacts and their friction.
+/// Default of POSITION TOLERANCE in mean sizes of master faces, as in Abaqus. CalculiX has 2.5 %.
+const double tie_tolerance = 0.05;
+
+/// This class reads the contacts with their friction, and the ties.
 class ContactReader
 {
 public:
@@ -42,7 +45,13 @@ public:
     if (law == "HARD" && keyword.options.size() == 1)
       require_no_lines(reading, keyword);
     if (law == "TIED")
-      reading.lacks(keyword, " TIED");
+      {
+        if (model.interactions.empty())
+          throw keyword_error(keyword, keyword.title + " must follow *SURFACE INTERACTION");
+        model.interactions.back().is_tied = true;
+        reading.remarks.replaced("an exact tie instead of " + title_of(keyword) + " TIED",
+                                 keyword.line);
+      }
     else if (!law.empty() && law != "HARD")
       reading.remarks.replaced("hard contact instead of " + title_of(keyword) + " " + law,
                                keyword.line);
@@ -67,34 +76,37 @@ public:
   {
     if (!keyword.has("INTERACTION"))
       throw keyword_error(keyword, keyword.title + " has no INTERACTION");
-    require_interaction(keyword, keyword.option("INTERACTION"));
+    const auto interaction = upper_case(keyword.option("INTERACTION"));
+    require_interaction(keyword, interaction);
+    const bool is_tied = keyword.has("TIED") || upper_case(keyword.option("TYPE")) == "TIED" ||
+                         is_tied_by(interaction);
     reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (words.size() < 2)
         return reading.lacks(keyword, " of a surface with itself", line);
-      if (upper_case(keyword.option("TYPE")) == "TIED")
-        return reading.lacks(keyword, " of type TIED", line);
-      if (read_rigid_pair(keyword, words, line))
+      if (read_rigid_pair(keyword, words, is_tied, line))
         return;
-      const auto slave = reading.surface(words[0], line), master = reading.surface(words[1], line);
-      if (!reading.use(keyword, slave, line) || !reading.use(keyword, master, line))
+      add_contacts(keyword, words, {"", "", 0, 0, interaction, 0., line, {}, false, 0., is_tied});
+    });
+  }
+
+  /// Read a line "slave surface, master surface" of a tie.
+  void read_tie(const Keyword &keyword)
+  {
+    if (keyword.has("CYCLICSYMMETRY") || keyword.has("MULTISTAGE"))
+      return; // These options are noted as lacking.
+    double tolerance = 0.;
+    if (keyword.has("POSITIONTOLERANCE"))
+      tolerance = to_number(keyword.option("POSITIONTOLERANCE"), keyword.line);
+    reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+      if (words.size() < 2 || words[1].empty())
+        throw error_at_line(line, keyword.title + " must have a slave and a master surface");
+      if (read_rigid_pair(keyword, words, true, line))
         return;
-      DeckModel::Contact contact{slave, master, 0, 0, upper_case(keyword.option("INTERACTION")),
-                                 0.,    line};
-      const auto         slaves  = reading.bodies.bodies_of(slave);
-      const auto         masters = reading.bodies.bodies_of(master);
-      const bool         is_one  = slaves.size() == 1 && masters.size() == 1;
-      bool               is_used = false;
-      for (const unsigned int s : slaves)
-        for (const unsigned int m : masters)
-          if (s != m && (is_one || is_near(contact = with_bodies(contact, s, m))))
-            {
-              contact = with_bodies(contact, s, m);
-              is_used = true;
-              adjust(keyword, contact);
-              model.contacts.push_back(contact);
-            }
-      if (!is_used)
-        reading.lacks(keyword, " of a body with itself, or of bodies far from each other", line);
+      const auto   master = reading.bodies.faces_of(reading.surface(words[1], line));
+      const double reach =
+        tolerance > 0. ? tolerance
+                       : tie_tolerance * mesh_file::mean_size(reading.deck.mesh.points, master);
+      add_contacts(keyword, words, {"", "", 0, 0, "", 0., line, {}, false, reach, true});
     });
   }
 
@@ -151,6 +163,8 @@ public:
       if (words.size() < 3 || !words[0].empty() || !words[1].empty())
         return reading.lacks(keyword, " of single surfaces", line);
       require_interaction(keyword, words[2]);
+      if (is_tied_by(upper_case(words[2])))
+        return reading.lacks(keyword, " of an interaction that is TIED", line);
       for (auto &contact : model.contacts)
         if (contact.is_general)
           contact.interaction = upper_case(words[2]);
@@ -174,6 +188,36 @@ private:
     throw keyword_error(keyword, "there is no *SURFACE INTERACTION '" + name + "'");
   }
 
+  bool is_tied_by(const std::string &interaction) const
+  {
+    return std::any_of(model.interactions.begin(), model.interactions.end(),
+                       [&](const auto &of) { return of.is_tied && of.name == interaction; });
+  }
+
+  /// Add a contact of the surfaces @p words for each pair of their bodies.
+  void add_contacts(const Keyword &keyword, const Words &words, DeckModel::Contact contact)
+  {
+    const auto line = contact.line;
+    contact.slave   = reading.surface(words[0], line);
+    contact.master  = reading.surface(words[1], line);
+    if (!reading.use(keyword, contact.slave, line) || !reading.use(keyword, contact.master, line))
+      return;
+    const auto slaves  = reading.bodies.bodies_of(contact.slave);
+    const auto masters = reading.bodies.bodies_of(contact.master);
+    const bool is_one  = slaves.size() == 1 && masters.size() == 1;
+    bool       is_used = false;
+    for (const unsigned int s : slaves)
+      for (const unsigned int m : masters)
+        if (auto of_bodies = with_bodies(contact, s, m); s != m && (is_one || is_near(of_bodies)))
+          {
+            is_used = true;
+            adjust(keyword, of_bodies);
+            model.contacts.push_back(of_bodies);
+          }
+    if (!is_used)
+      reading.lacks(keyword, " of a body with itself, or of bodies far from each other", line);
+  }
+
   static DeckModel::Contact
   with_bodies(DeckModel::Contact contact, const unsigned int slave, const unsigned int master)
   {
@@ -193,7 +237,7 @@ private:
   /// Return whether the sides of a contact between several bodies are a face from each other.
   bool is_near(const DeckModel::Contact &contact) const
   {
-    return !gaps(contact, slave_size(contact)).faces.empty();
+    return !gaps(contact, contact.reach > 0. ? contact.reach : slave_size(contact)).faces.empty();
   }
 
   double slave_size(const DeckModel::Contact &contact) const
@@ -208,11 +252,19 @@ private:
   }
 
   /// Read a pair of a surface and a rigid one. Return whether it is one.
-  bool read_rigid_pair(const Keyword &keyword, const Words &words, const unsigned long line)
+  bool read_rigid_pair(const Keyword      &keyword,
+                       const Words        &words,
+                       const bool          is_tied,
+                       const unsigned long line)
   {
     for (const auto &[rigid, other] : {std::make_pair(1, 0), std::make_pair(0, 1)})
       if (is_rigid_surface(reading, words[rigid]))
         {
+          if (is_tied)
+            {
+              reading.lacks(keyword, " that ties a rigid body", line);
+              return true;
+            }
           const auto slave = reading.surface(words[other], line);
           if (!reading.use(keyword, slave, line))
             return true;
@@ -235,10 +287,16 @@ private:
   }
 
   /// ADJUST moves the slave nodes within a distance onto the master. Nodes that are there already
-  /// stay.
+  /// stay. The default of *TIE is YES.
   void adjust(const Keyword &keyword, DeckModel::Contact &contact)
   {
     const auto given = keyword.option("ADJUST");
+    if (contact.is_tied)
+      {
+        if (upper_case(given) != "NO" && (keyword.name == "TIE" || !given.empty()))
+          note_tied_gap(keyword, contact);
+        return;
+      }
     if (given.empty() || upper_case(given) == "NO" || upper_case(given) == "YES")
       return;
     const bool is_number = given.find_first_not_of("0123456789.eE+-") == std::string::npos;
@@ -249,12 +307,26 @@ private:
       set_gap(keyword, contact, near, 0.);
   }
 
+  /// Note a gap of a tie that the deck closes, because nodes are tied as they lie.
+  void note_tied_gap(const Keyword &keyword, const DeckModel::Contact &contact)
+  {
+    const auto   near    = gaps(contact, contact.reach > 0. ? contact.reach : slave_size(contact));
+    const double largest = std::max(std::abs(near.least), std::abs(near.largest));
+    if (!near.faces.empty() && largest > closed_gap * slave_size(contact))
+      reading.remarks.replaced("a tie across gaps up to " + to_text(largest) +
+                                 " instead of nodes moved onto the master side by " +
+                                 title_of(keyword),
+                               contact.line);
+  }
+
   /// Let the gap of a contact be @p wanted, if that of the mesh is uniform.
   void set_gap(const Keyword             &keyword,
                DeckModel::Contact        &contact,
                const mesh_file::FaceGaps &mesh,
                const double               wanted)
   {
+    if (contact.is_tied)
+      return reading.remarks.not_needed(title_of(keyword) + " of a tie", keyword.line);
     const double rounding = closed_gap * slave_size(contact);
     if (!mesh.faces.empty() &&
         std::max(std::abs(mesh.least - wanted), std::abs(mesh.largest - wanted)) <= 1e-3 * rounding)
@@ -283,9 +355,13 @@ KeywordReadings contact_readings(Reading &reading)
           {"FRICTION", {by(&M::read_friction), {{}, {"SLIPTOLERANCE", "ELASTICSLIP", "LAGRANGE"}}}},
           {"CONTACTPAIR",
            {by(&M::read_pair),
-            {{"INTERACTION", "TYPE", "ADJUST"},
+            {{"INTERACTION", "TYPE", "ADJUST", "TIED"},
              {"SMALLSLIDING", "NOTHICKNESS", "EXTENSIONZONE", "TRACKING", "MECHANICALCONSTRAINT",
               "WEIGHT", "CPSET", "SUPPLEMENTARYCONSTRAINTS", "OP", "HCRIT"}}}},
+          {"TIE",
+           {by(&M::read_tie),
+            {{"NAME", "POSITIONTOLERANCE", "ADJUST"},
+             {"TYPE", "NOROTATION", "NOTHICKNESS", "CONSTRAINTRATIO"}}}},
           {"CLEARANCE", {by(&M::read_clearance), {{"SLAVE", "MASTER", "VALUE", "CPSET"}, {}}}},
           {"CONTACT", {by(&M::begin_general), {{}, {"OP"}}, false}},
           {"CONTACTINCLUSIONS",

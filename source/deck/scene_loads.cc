@@ -69,8 +69,8 @@ private:
 
   bool has_friction() const
   {
-    return std::any_of(model.interactions.begin(), model.interactions.end(),
-                       [](const auto &interaction) { return interaction.friction > 0.; });
+    return std::any_of(model.contacts.begin(), model.contacts.end(),
+                       [&](const auto &contact) { return model.friction(contact) > 0.; });
   }
 
   std::string case_name(const unsigned int s) const

@@ -220,18 +220,19 @@ private:
     for (const auto &contact : model.contacts)
       {
         write("\nsubsection Pair " + sides(contact));
-        if (contact.is_general)
+        if (contact.is_tied)
+          write_entry({"Law", "tied"});
+        if (contact.reach > 0.)
           write_entry({"Search distance", to_text(contact.reach)});
-        else if (!contact.obstacle)
+        if (!contact.is_general && !contact.obstacle)
           write_entry({"Slave", "first"});
         if (contact.gap != 0.)
           write_entry({"Gap", to_text(contact.gap)});
-        for (const auto &interaction : model.interactions)
-          if (interaction.name == contact.interaction && interaction.friction > 0.)
-            {
-              write_entry({"Friction", "Coulomb"});
-              write_entry({"Friction coefficient", to_text(interaction.friction)});
-            }
+        if (const double friction = model.friction(contact); friction > 0.)
+          {
+            write_entry({"Friction", "Coulomb"});
+            write_entry({"Friction coefficient", to_text(friction)});
+          }
         write("end");
       }
   }

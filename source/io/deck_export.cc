@@ -63,6 +63,7 @@ public:
       left_out.push_back("masters of hanging nodes in the middles of faces");
     write_materials();
     write_contacts();
+    write_ties();
     write_supports();
     out += "*STEP\n*STATIC\n1., 1.\n";
     write_loads();
@@ -168,6 +169,25 @@ private:
         has_contacts = true;
         if (pair.parameters.gap != "0")
           left_out.push_back("'Gap' of contact " + pair.name());
+      }
+  }
+
+  /// Write tied pairs. Pairs without a search distance are tied across any gap.
+  void write_ties()
+  {
+    double largest = 0.; // distance of two nodes, or more
+    for (const auto &position : whole.positions)
+      largest = std::max(largest, 2. * (position - whole.positions.front()).norm());
+    unsigned int n = 0;
+    for (const auto &pair : solver.ties().named_pairs())
+      {
+        const std::string id     = "tie-" + std::to_string(++n);
+        const std::string slave  = surface_of(pair.slave, id + "-slave");
+        const std::string master = surface_of(pair.master, id + "-master");
+        const double      reach  = pair.parameters.search_distance;
+        out += "*TIE, NAME=" + id +
+               ", ADJUST=NO, POSITION TOLERANCE=" + deck_real(reach > 0. ? reach : largest) + '\n' +
+               slave + ", " + master + '\n';
       }
   }
 

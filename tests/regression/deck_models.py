@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compare decks of five pre-processors with CalculiX: deck_models.py SNUG [--folder DIR] [NAME...].
 
-Twenty decks in the manner of Abaqus/CAE, PrePoMax, FreeCAD, cgx and Mecway are generated and run by
+Decks in the manner of Abaqus/CAE, PrePoMax, FreeCAD, cgx and Mecway are generated and run by
 Snug and by CalculiX. The largest difference of the displacements at some nodes in all steps, over
 the largest of these displacements, must be below the bound of the deck, which is 1 % unless the
 deck states a reason. CalculiX gets parts, instances and general contact as a deck of nodes,
@@ -17,12 +17,12 @@ LIBRARY = pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"
 sys.path.append(str(LIBRARY))
 
 from calculix import require_ccx  # noqa: E402
-from deck_files import compare, contacts, single_bodies  # noqa: E402
+from deck_files import compare, contacts, single_bodies, ties  # noqa: E402
 
 
 def examples():
     """Return {name: function} of all decks."""
-    return {name: function for module in (single_bodies, contacts)
+    return {name: function for module in (single_bodies, contacts, ties)
             for name, function in vars(module).items()
             if name.partition("_")[0] in ("cae", "prepomax", "freecad", "cgx", "mecway")}
 

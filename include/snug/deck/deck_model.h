@@ -84,6 +84,7 @@ struct DeckModel
   {
     std::string name; ///< in upper case
     double      friction = 0.;
+    bool        is_tied  = false; ///< PRESSURE-OVERCLOSURE=TIED
   };
 
   /// A rigid body: faces that belong to no cell, or an analytical surface, and its reference node.
@@ -116,7 +117,8 @@ struct DeckModel
     unsigned long               line;
     std::optional<unsigned int> obstacle   = {};    ///< master side, instead of a body
     bool                        is_general = false; ///< any side may be the slave side
-    double                      reach      = 0.;    ///< of general contact [length]
+    double                      reach      = 0.; ///< of general contact and ties; 0: any [length]
+    bool                        is_tied    = false;
   };
 
   std::vector<Material>                materials;
@@ -135,6 +137,15 @@ struct DeckModel
   std::string                          model  = "solid";
   unsigned int                         degree = 1;
   std::string                          units; ///< "mm, N", or ""
+
+  /// Return the coefficient of friction of a contact; 0 for ties.
+  double friction(const Contact &contact) const
+  {
+    for (const auto &interaction : interactions)
+      if (!contact.is_tied && interaction.name == contact.interaction)
+        return interaction.friction;
+    return 0.;
+  }
 };
 
 /// Read the keywords of a deck. Keywords and options that are not read are noted in @p remarks.

@@ -34,6 +34,12 @@ public:
 
   bool empty() const { return !contact; }
 
+  /// Return the tied pairs after the choice of their slave sides.
+  std::vector<contact::NamedPair> named_pairs() const
+  {
+    return contact ? contact->named_pairs() : std::vector<contact::NamedPair>();
+  }
+
   /// Return the rows at @p positions: normal rows, then tangential rows.
   std::vector<contact::Row<dim>> rows(const Field &positions) const;
 

@@ -114,6 +114,83 @@ TEST(DeckKeywords, GapsOfAdjustAndClearanceAreThoseOfThePair)
             -.75);
 }
 
+/// Return the parameters of the only pair of a deck, all of whose parts are translated.
+contact::PairParameters pair_of(const std::string &text)
+{
+  const auto translation = deck::translate(text, "deck.inp");
+  EXPECT_TRUE(translation.lacking.empty()) << translation.lacking.front().text;
+  const auto pairs = scene_of(translation, text).contact.pairs;
+  EXPECT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs.at(0).slave, "lid.under");
+  EXPECT_EQ(pairs.at(0).master, "base.over");
+  EXPECT_EQ(pairs.at(0).parameters.slave, contact::Slave::first);
+  EXPECT_EQ(pairs.at(0).parameters.friction, contact::Friction::none);
+  return pairs.at(0).parameters;
+}
+
+TEST(DeckKeywords, TiesAndTiedContactsAreTiedPairs)
+{
+  // The lid is 1 above the base, whose two master faces have edges of the length 1.
+  const std::string near = "*TIE, NAME=t, POSITION TOLERANCE=1.5";
+  const auto        tied = pair_of(squares(near + ", ADJUST=NO\nunder, over\n", ""));
+  EXPECT_EQ(tied.law, contact::Law::tied);
+  EXPECT_EQ(tied.search_distance, 1.5);
+  EXPECT_EQ(pair_of(squares("*TIE, NAME=t\nunder, over\n", "")).search_distance, 0.05);
+  // Nodes stay where they are, also if ADJUST moves them, which is its default.
+  const auto moves = [&](const std::string &lines) {
+    return replaces(deck::translate(squares(lines, ""), "deck.inp"), "a tie across gaps up to 1 ");
+  };
+  EXPECT_TRUE(moves(near + "\nunder, over\n"));
+  EXPECT_TRUE(moves(near + ", ADJUST=YES\nunder, over\n"));
+  EXPECT_FALSE(moves(near + ", ADJUST=NO\nunder, over\n"));
+  EXPECT_FALSE(moves("*TIE, NAME=t\nunder, over\n"));
+  // A contact that is tied has no friction, so that the second step is no load step.
+  const std::string law  = "*SURFACE INTERACTION, NAME=I\n*FRICTION\n.3, 1.e5\n";
+  const std::string pair = "*CONTACT PAIR, INTERACTION=I";
+  for (const auto &lines : {law + "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1.e6\n" + pair,
+                            law + pair + ", TIED", law + pair + ", TYPE=TIED"})
+    {
+      const auto text  = squares(lines + "\nunder, over\n", "*END STEP\n*STEP\n*STATIC\n");
+      const auto found = pair_of(text);
+      EXPECT_EQ(found.law, contact::Law::tied) << lines;
+      EXPECT_EQ(found.search_distance, 0.) << lines;
+      EXPECT_FALSE(scene_of(deck::translate(text, "d"), text).load_cases.at(1).load_step);
+    }
+}
+
+TEST(DeckKeywords, TheSlaveSideOfATieMayBeNodes)
+{
+  const auto text = squares("*NSET, NSET=low\n11, 12\n*SURFACE, TYPE=NODE, NAME=nodes\nlow,\n"
+                            "*TIE, NAME=t, POSITION TOLERANCE=2., ADJUST=NO\nnodes, over\n",
+                            "");
+  const auto translation = deck::translate(text, "deck.inp");
+  EXPECT_TRUE(translation.lacking.empty());
+  const auto pairs = scene_of(translation, text).contact.pairs;
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].slave, "lid.nodes");
+  EXPECT_EQ(pairs[0].parameters.law, contact::Law::tied);
+}
+
+TEST(DeckKeywords, TiesWithoutAPairAreLeftOut)
+{
+  const auto lacks = [](const std::string &lines, const std::string &words) {
+    return lists(deck::translate(squares(lines, "*BOUNDARY\n199, 1, 6\n"), "deck.inp"), words);
+  };
+  EXPECT_TRUE(lacks("*NODE\n199, 0., -5.\n*SURFACE, NAME=low\nbase, S1\n*TIE, NAME=t\nlow, over\n",
+                    "*TIE of a body with itself"));
+  EXPECT_TRUE(lacks("*NODE\n199, 0., -5.\n*TIE, NAME=t, CYCLIC SYMMETRY\nunder, over\n",
+                    "*TIE: the option CYCLICSYMMETRY"));
+  EXPECT_TRUE(lacks("*NODE\n199, 0., -5.\n*SURFACE, TYPE=SEGMENTS, NAME=tool\nSTART, 9., -2.\n"
+                    "LINE, -7., -2.\n*RIGID BODY, ANALYTICAL SURFACE=tool, REF NODE=199\n"
+                    "*SURFACE, NAME=low\nbase, S1\n*TIE, NAME=t\nlow, tool\n",
+                    "*TIE that ties a rigid body"));
+  EXPECT_TRUE(lacks("*NODE\n199, 0., -5.\n*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"
+                    "*SURFACE INTERACTION, NAME=I\n"
+                    "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n"
+                    "*CONTACT PROPERTY ASSIGNMENT\n, , I\n",
+                    "of an interaction that is TIED"));
+}
+
 TEST(DeckKeywords, GeneralContactPairsBodiesWithinReach)
 {
   const auto text        = squares("*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"
@@ -188,12 +265,12 @@ TEST(DeckKeywords, AnalyticalSurfacesAreLinesOrCircles)
 TEST(DeckKeywords, OutputIsNotNeededAndPartsOfTheModelAreListed)
 {
   const auto translation = deck::translate(
-    squares("*TIE, NAME=t\nunder, over\n*EQUATION\n2\n1,1,1.,2,1,-1.\n",
+    squares("*MODEL CHANGE, TYPE=ELEMENT\nlid\n*EQUATION\n2\n1,1,1.,2,1,-1.\n",
             "*NODE FILE\nU\n*EL PRINT\nS\n*DLOAD\nlid, CENTRIF, 1., 0., 0., 0., 0., 0., 1.\n"),
     "deck.inp");
   EXPECT_EQ(translation.not_needed.rfind("*NODE FILE (line ", 0), 0u);
   ASSERT_EQ(translation.lacking.size(), 3u);
-  EXPECT_EQ(translation.lacking[0].kind, "tie");
+  EXPECT_EQ(translation.lacking[0].kind, "model change");
   EXPECT_EQ(translation.lacking[1].kind, "equation");
   EXPECT_EQ(translation.lacking[2].kind, "dload");
 }
@@ -241,6 +318,9 @@ TEST(DeckKeywords, WrongStructureIsAnError)
     {"*END STEP\n*STEP\n*END STEP\n*AMPLITUDE, NAME=a, TIME=TOTAL TIME\n0., 1.\n", "TOTAL TIME"},
     {"*END STEP\n*SOLID SECTION, ELSET=lid, MATERIAL=steel\n4.\n", "different thicknesses"},
     {"*END STEP\n*ELEMENT, TYPE=CPS4\n9, 1, 2, 5, 4\n", "plane strain and of plane stress"},
+    {"*END STEP\n*TIE, NAME=t\nunder, ower\n", "line 38: there is no surface 'ower'"},
+    {"*END STEP\n*TIE, NAME=t\nunder,\n", "line 38: *TIE must have a slave and a master surface"},
+    {"*END STEP\n*TIE, NAME=t, POSITION TOLERANCE=near\nunder, over\n", "'near' is not a number"},
     {"*END STEP\n*CONTACT PAIR, INTERACTION=none\nunder, over\n", "no *SURFACE INTERACTION"}};
   for (const auto &[loads, message] : wrong)
     try
