@@ -318,8 +318,8 @@ TEST(DeckKeywords, WrongStructureIsAnError)
     {"*END STEP\n*STEP\n*END STEP\n*AMPLITUDE, NAME=a, TIME=TOTAL TIME\n0., 1.\n", "TOTAL TIME"},
     {"*END STEP\n*SOLID SECTION, ELSET=lid, MATERIAL=steel\n4.\n", "different thicknesses"},
     {"*END STEP\n*ELEMENT, TYPE=CPS4\n9, 1, 2, 5, 4\n", "plane strain and of plane stress"},
-    {"*END STEP\n*TIE, NAME=t\nunder, ower\n", "line 38: there is no surface 'ower'"},
-    {"*END STEP\n*TIE, NAME=t\nunder,\n", "line 38: *TIE must have a slave and a master surface"},
+    {"*END STEP\n*TIE, NAME=t\nunder, ower\n", "line 52: there is no surface 'ower'"},
+    {"*END STEP\n*TIE, NAME=t\nunder,\n", "line 52: *TIE must have a slave and a master surface"},
     {"*END STEP\n*TIE, NAME=t, POSITION TOLERANCE=near\nunder, over\n", "'near' is not a number"},
     {"*END STEP\n*CONTACT PAIR, INTERACTION=none\nunder, over\n", "no *SURFACE INTERACTION"}};
   for (const auto &[loads, message] : wrong)
