@@ -142,7 +142,7 @@ struct DeckModel
   double friction(const Contact &contact) const
   {
     for (const auto &interaction : interactions)
-      if (!contact.is_tied && interaction.name == contact.interaction)
+      if (!contact.is_tied && interaction.name == contact.interaction && interaction.friction > 0.)
         return interaction.friction;
     return 0.;
   }
