@@ -287,8 +287,7 @@ std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &
   if (contact.n_rows() > 0)
     add_rows({&contact, of.pressures, of.shears}, r);
   if (!of.ties.empty())
-    add_rows({&solver.ties().rows_in_contact(), std::vector<double>(of.ties.size(), 0.), of.ties},
-             r);
+    add_rows({solver.ties().paired(), std::vector<double>(of.ties.size(), 0.), of.ties}, r);
   return r;
 }
 

@@ -30,7 +30,8 @@ void Results<dim>::draw(const double                  time,
         pictures[c].contact.write({*problem->mesh, solver.surface(), contact.joined_pairs(),
                                    contact.places(), contact.dependent_multipliers(),
                                    contact.placed_surface(),
-                                   contact.places().empty() ? none : numbers_of_nodes()},
+                                   solver.surface().n_nodes() == 0 ? none : numbers_of_nodes(),
+                                   solver.ties().paired()},
                                   time, states[c]));
     }
   if (states.size() > 1)

@@ -14,6 +14,9 @@
 
 namespace snug::app {
 namespace {
+/// Slave sides of tied pairs of which a smaller part faces the other side cause a warning.
+const double least_tied_share = 0.99;
+
 /// Return a line for each face with components that are free in the scene, prescribed by load
 /// cases, and held at zero in other load cases.
 std::vector<std::string> held_face_notes(const scene::Scene &scene)
@@ -69,9 +72,9 @@ void print_side(const ShapeProblem<dim> &problem, const contact::Side &side, std
 
 /// Return the areas that the rows of each pair cover as parts of the areas of the slave sides.
 template <int dim>
-std::vector<double> facing_shares(const ShapeProblem<dim> &problem, const unsigned int load_case)
+std::vector<double> facing_shares(const ShapeProblem<dim>     &problem,
+                                  const contact::Contact<dim> &contact)
 {
-  const auto         &contact = problem.solver->contact(load_case);
   const auto         &surface = problem.solver->surface();
   const auto          x       = surface.gather(problem.positions(problem.shapes->start()));
   const auto          areas   = contact.areas(x);
@@ -150,22 +153,22 @@ std::string without_round_off(const contact::PairedGaps &gaps)
   return text.str();
 }
 
+/// Print each joined pair and its surfaces. The @p place ends the name of the pair.
 template <int dim>
-void print_pairs_at(const ShapeProblem<dim> &problem,
-                    const unsigned int       c,
-                    const bool               is_of_several)
+void print_pairs(const ShapeProblem<dim>     &problem,
+                 const contact::Contact<dim> &contact,
+                 const bool                   tied,
+                 const std::string           &place,
+                 std::ostream                &out)
 {
-  auto                     &out = problem.context.out(c > 0 ? Verbosity::debug : Verbosity::normal);
-  const auto               &contact = problem.solver->contact(c);
-  const auto               &pairs   = contact.pairs();
-  const auto                shares  = facing_shares(problem, c);
+  const auto               &pairs  = contact.pairs();
+  const auto                shares = facing_shares(problem, contact);
   std::vector<unsigned int> rows(pairs.size(), 0);
-  for (const auto &place : contact.places())
-    ++rows[place.pair];
+  for (const auto &of : contact.places())
+    ++rows[of.pair];
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {
-      out << "contact " << pairs[p].name()
-          << (is_of_several ? state::place_of(problem.solver->model(), c) : "") << ", ";
+      out << (tied ? "tied " : "contact ") << pairs[p].name() << place << ", ";
       const auto &matching = contact.matchings()[p];
       if (pairs[p].obstacle)
         out << "obstacle";
@@ -178,7 +181,7 @@ void print_pairs_at(const ShapeProblem<dim> &problem,
             out << "non-matching meshes (" << matching.n_matching << " of "
                 << counted(matching.n_nodes, "slave node") << " on a master node)";
         }
-      out << ", " << counted(rows[p], "contact condition") << ", initial gap "
+      out << ", " << counted(rows[p], tied ? "node" : "contact condition") << ", initial gap "
           << without_round_off(contact.paired_gaps()[p]) << ", "
           << std::round(100. * std::min(1., shares[p]))
           << " % of the slave side faces the other side"
@@ -207,32 +210,39 @@ void print_notes(const scene::Scene &scene, std::ostream &out)
 template <int dim>
 void print_pairs(const ShapeProblem<dim> &problem)
 {
-  const auto positions = problem.solver->positions();
+  const auto &solver    = *problem.solver;
+  const auto  positions = solver.positions();
   for (const unsigned int c : positions)
-    print_pairs_at(problem, c, positions.size() > 1);
+    print_pairs(problem, solver.contact(c), false,
+                positions.size() > 1 ? state::place_of(solver.model(), c) : "",
+                problem.context.out(c > 0 ? Verbosity::debug : Verbosity::normal));
+  if (const auto *ties = solver.ties().paired())
+    print_pairs(problem, *ties, true, "", problem.context.out());
 }
 
 template <int dim>
 io::Json pairs_part(const ShapeProblem<dim> &problem)
 {
-  io::Json part = io::Json::array();
+  io::Json   part = io::Json::array();
+  const auto add  = [&](const contact::Contact<dim> &contact, const unsigned int c,
+                       const std::string &rows) {
+    const auto  shares = facing_shares(problem, contact);
+    const auto &places = contact.places();
+    for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+      {
+        const auto &gaps = contact.paired_gaps()[p];
+        part.push_back({{"name", contact.pairs()[p].name()},
+                        {"load_case", problem.solver->model().load_cases[c].name},
+                        {rows, std::count_if(places.begin(), places.end(),
+                                              [p](const auto &place) { return place.pair == p; })},
+                        {"gap", {gaps.least, gaps.largest}},
+                        {"facing", std::min(1., shares[p])}});
+      }
+  };
   for (const unsigned int c : problem.solver->positions())
-    {
-      const auto &contact = problem.solver->contact(c);
-      const auto  shares  = facing_shares(problem, c);
-      for (unsigned int p = 0; p < contact.pairs().size(); ++p)
-        {
-          const auto &places = contact.places();
-          const auto &gaps   = contact.paired_gaps()[p];
-          part.push_back({{"name", contact.pairs()[p].name()},
-                          {"load_case", problem.solver->model().load_cases[c].name},
-                          {"contact_conditions",
-                           std::count_if(places.begin(), places.end(),
-                                         [p](const auto &place) { return place.pair == p; })},
-                          {"gap", {gaps.least, gaps.largest}},
-                          {"facing", std::min(1., shares[p])}});
-        }
-    }
+    add(problem.solver->contact(c), c, "contact_conditions");
+  if (const auto *ties = problem.solver->ties().paired())
+    add(*ties, 0, "tied_nodes");
   return part;
 }
 
@@ -255,6 +265,17 @@ void warn_of_model(const ShapeProblem<dim> &problem)
       warn(state::overlap_warnings(contact.pairs(), contact.paired_gaps(),
                                    state::place_of(solver.model(), c)));
       warn(state::friction_warnings(contact));
+    }
+  if (const auto *ties = solver.ties().paired())
+    {
+      const auto shares = facing_shares(problem, *ties);
+      for (unsigned int p = 0; p < shares.size(); ++p)
+        if (shares[p] < least_tied_share)
+          warn({{"ties",
+                 "only " + to_text(std::round(1000. * shares[p]) / 10.) +
+                   " % of the slave side of the tied pair '" + ties->pairs()[p].name() +
+                   "' faces the other side: the rest is free",
+                 shares[p], least_tied_share}});
     }
   warn(load_warnings(*problem.mesh, solver.model()));
 }

@@ -39,6 +39,8 @@ std::pair<double, double> largest_forces(const state::ContactState<dim> &state)
     // Pressures around a shaft balance each other.
     result = {std::max({result.first, pair.force.norm(), pair.contact_area * pair.max_pressure}),
               std::max(result.second, pair.moment.norm())};
+  for (const auto &tie : state.ties)
+    result = {std::max(result.first, tie.force.norm()), std::max(result.second, tie.moment.norm())};
   for (const auto &reaction : state.reactions)
     result = {std::max(result.first, reaction.force.norm()),
               std::max(result.second, reaction.moment.norm())};
@@ -129,7 +131,8 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
   const double      extent = state.displacement_peak.extent;
   const auto        edges  = accuracy::sharp_edges(*problem.solver, state);
   const std::string length = units.after_number("length"), force = units.after_number("force"),
-                    moment = units.after_number("force length");
+                    moment = units.after_number("force length"),
+                    stress = units.after_number("force/length^2");
   const auto   largest     = largest_forces(state);
   const double forces      = largest.first;
   // Moments of forces at a distance cancel up to their round-off.
@@ -147,6 +150,14 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
               << vector_text(pair.centre, extent) << length << ", face size at the peak "
               << pair.peak_size << length << '\n';
     }
+  for (const auto &tie : state.ties)
+    out << "  tied " << tie.name << ": force on " << tie.name.substr(0, tie.name.find(": ")) << ' '
+        << vector_text(tie.force, forces) << force << ", moment "
+        << moment_text<dim>(tie.moment, moments) << moment << " about "
+        << vector_text(tie.centre, extent) << length << ", largest tension " << tie.max_tension
+        << stress << " at " << vector_text(tie.tension_place, extent) << length
+        << ", largest shear traction " << tie.max_shear << stress << " at "
+        << vector_text(tie.shear_place, extent) << length << '\n';
   for (const auto &reaction : state.reactions)
     out << "  support " << reaction.name << ": force " << vector_text(reaction.force, forces)
         << force << ", moment " << moment_text<dim>(reaction.moment, moments) << moment << " about "

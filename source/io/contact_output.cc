@@ -49,6 +49,15 @@ state::ContactPoint shared_point(const Shares &shares, const Point &point)
   return result;
 }
 
+/// Return the sources of tied pairs.
+template <int dim>
+Sources<dim> ties_of(const Sources<dim> &of)
+{
+  const auto &ties = *of.ties;
+  return {of.mesh,   of.surface,  ties.joined_pairs(), ties.places(), ties.dependent_multipliers(),
+          of.placed, of.number_of};
+}
+
 /// Return the points of the rows of the joined pair @p p, per surface node.
 template <int dim>
 std::vector<state::ContactPoint> nodal_points(const Sources<dim>                     &sources,
@@ -89,7 +98,7 @@ std::vector<std::vector<bool>> candidates(const Sources<dim> &sources)
 
 /// Return the quantities at the points of the VTU file.
 template <int dim>
-std::vector<Quantity> quantities(const bool friction)
+std::vector<Quantity> quantities(const bool friction, const bool ties)
 {
   std::vector<Quantity> result = {{"pressure", 1},       {"gap", 1},
                                   {"force", 1},          {"area", 1},
@@ -99,6 +108,8 @@ std::vector<Quantity> quantities(const bool friction)
                                   {"displacement", dim}, {"design_displacement", dim}};
   if (friction)
     result.insert(result.end(), {{"traction", dim}, {"slip", dim}, {"friction", 1}});
+  if (ties)
+    result.insert(result.end(), {{"tie_tension", 1}, {"tie_shear", dim}});
   return result;
 }
 
@@ -115,10 +126,12 @@ public:
     , fields(fields)
     , friction(state.has_friction())
     , candidate(candidates<dim>(sources))
-    , empty(quantities<dim>(friction), {})
+    , empty(quantities<dim>(friction, sources.ties != nullptr), {})
   {
     for (unsigned int p = 0; p < sources.pairs.size(); ++p)
       nodal.push_back(nodal_points<dim>(sources, p, state.contact));
+    for (unsigned int p = 0; sources.ties != nullptr && p < sources.ties->pairs().size(); ++p)
+      tied.push_back(nodal_points<dim>(ties_of<dim>(sources), p, state.tied));
     for (const auto &face : sources.surface.faces())
       add(face);
   }
@@ -201,6 +214,15 @@ private:
         append(point.slip);
         result.push_back(double(point.friction));
       }
+    if (sources.ties != nullptr)
+      {
+        state::ContactPoint of_tie;
+        for (unsigned int t = 0; t < tied.size(); ++t)
+          if (contact::is_on(face, sources.ties->pairs()[t].slave))
+            of_tie = tied[t][node];
+        result.push_back(-of_tie.pressure);
+        append(of_tie.traction);
+      }
     return result;
   }
 
@@ -210,6 +232,7 @@ private:
   const std::vector<std::vector<bool>>                  candidate;
   const VtuGrid<dim - 1, dim>                           empty;
   std::vector<std::vector<state::ContactPoint>>         nodal; ///< per joined pair and node
+  std::vector<std::vector<state::ContactPoint>>         tied;  ///< the same of tied pairs
   std::map<std::pair<unsigned int, unsigned int>, Grid> grids; ///< of (body, boundary)
 };
 
@@ -263,27 +286,29 @@ Places<dim> places_of(const Sources<dim>                       &sources,
 }
 
 /// Return one line per row, sorted by pair and along the faces. Nodes of several pairs have several
-/// lines. Positions and normals are those of the slaves.
+/// lines. Positions and normals are those of the slaves. @p tied: the rows are those of ties.
 template <int dim>
 std::string rows_text(const Sources<dim>             &sources,
                       const state::ContactState<dim> &state,
-                      const SurfaceFields<dim>       &fields)
+                      const SurfaceFields<dim>       &fields,
+                      const bool                      tied)
 {
   const std::string axes     = dim == 3 ? "xyz" : "xy";
-  const bool        friction = state.has_friction();
+  const bool        friction = !tied && state.has_friction();
+  const auto       &points   = tied ? state.tied : state.contact;
   std::string       text     = "pair,node,";
   for (const char axis : axes)
     text += std::string(1, axis) + ',';
   for (const char axis : axes)
     text += std::string("normal_") + axis + ',';
   text += dim == 2 ? "arc_length," : "";
-  text += "force,pressure,gap,area,active,weak";
-  for (const std::string name : {"traction", "slip"})
-    for (unsigned int c = 0; friction && c < dim; ++c)
+  text += tied ? "force,tension,area" : "force,pressure,gap,area,active,weak";
+  for (const std::string name : {tied ? "shear" : "traction", tied ? "shear_force" : "slip"})
+    for (unsigned int c = 0; (tied || friction) && c < dim; ++c)
       text += "," + name + "_" + axes[c];
   text += friction ? ",friction\n" : "\n";
   const auto                at = places_of<dim>(sources, fields.positions);
-  std::vector<unsigned int> order(state.contact.size());
+  std::vector<unsigned int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](const unsigned int i, const unsigned int j) {
     const auto key = [&](const unsigned int row) {
@@ -295,20 +320,25 @@ std::string rows_text(const Sources<dim>             &sources,
   for (const unsigned int i : order)
     {
       const auto &row   = sources.places[i];
-      const auto &point = state.contact[i];
+      const auto &point = points[i];
+      using Numbers     = std::vector<double>;
+      const auto append = [&text](const auto &vector) {
+        for (unsigned int c = 0; c < dim; ++c)
+          text += ',' + rounded(vector[c] + 0.); // 0 instead of -0
+      };
       text += std::to_string(row.named) + ',' +
               std::to_string(sources.number_of[sources.surface.global_node(row.slave)] + 1);
-      for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + rounded(fields.positions[row.slave][c]);
-      for (unsigned int c = 0; c < dim; ++c)
-        text += ',' + rounded(at.normals[row.slave][c]);
+      append(fields.positions[row.slave]);
+      append(at.normals[row.slave]);
       text += dim == 2 ? ',' + rounded(at.arc_length[row.slave]) : "";
-      for (const double x : {point.force, point.pressure, point.gap, point.area})
+      for (const double x : tied ? Numbers{-point.force, -point.pressure, point.area}
+                                 : Numbers{point.force, point.pressure, point.gap, point.area})
         text += ',' + rounded(x);
-      text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1" : ",0");
-      for (const auto &vector : {point.traction, point.slip})
-        for (unsigned int c = 0; friction && c < dim; ++c)
-          text += ',' + rounded(vector[c]);
+      if (!tied)
+        text += std::string(point.active ? ",1" : ",0") + (point.weak ? ",1" : ",0");
+      for (const auto &vector : {point.traction, tied ? -point.shear : point.slip})
+        if (tied || friction)
+          append(vector);
       text += friction ? "," + to_text(point.friction) + '\n' : "\n";
     }
   return text;
@@ -337,7 +367,10 @@ std::string ContactOutput<dim>::write(const Sources                  &of,
   throw_collectively(comm, [&] {
     if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    write_text_file(directory + "/" + stem + ".csv", rows_text<dim>(of, state, fields));
+    write_text_file(directory + "/" + stem + ".csv", rows_text<dim>(of, state, fields, false));
+    if (of.ties != nullptr)
+      write_text_file(directory + "/ties-" + padded(series.size() - 1, 4) + ".csv",
+                      rows_text<dim>(ties_of<dim>(of), state, fields, true));
     write_text_file(directory + "/contact.pvd", pvd(series));
   });
   return series.back().second;

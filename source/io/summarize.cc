@@ -76,6 +76,21 @@ Summary::State summary_part(const state::PairState<dim> &pair)
 }
 
 template <int dim>
+Summary::State summary_part(const state::TieState<dim> &tie)
+{
+  return {{"name", tie.name},
+          {"nodes", tie.nodes},
+          {"force", numbers(tie.force)},
+          {"moment", numbers(tie.moment)},
+          {"centre", numbers(tie.centre)},
+          {"area", tie.area},
+          {"max_tension", tie.max_tension},
+          {"tension_place", numbers(tie.tension_place)},
+          {"max_shear", tie.max_shear},
+          {"shear_place", numbers(tie.shear_place)}};
+}
+
+template <int dim>
 Summary::State summary_part(const state::StressPeak<dim> &peak)
 {
   Summary::State yield;
@@ -188,6 +203,7 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"linear_f_mults", linear},
           {"method", state.dual.method},
           {"pairs", array_of(state.pairs)},
+          {"ties", array_of(state.ties)},
           {"reactions", array_of(state.reactions)},
           {"load", numbers(state.load)},
           {"balance", numbers(state.balance)},

@@ -244,6 +244,15 @@ void add_numbers(const Json &state, std::vector<std::string> &names, std::vector
     add(key, state.at(key));
   for (std::size_t d = 0; d < state.at("contact_force").size(); ++d)
     add(std::string("contact_force_") + "xyz"[d], state.at("contact_force")[d]);
+  for (const auto &tie : state.at("ties"))
+    {
+      const auto of = " " + tie.at("name").get<std::string>();
+      for (const char *key : {"force", "moment"})
+        for (std::size_t d = 0; d < tie.at(key).size(); ++d)
+          add(std::string("tie_") + key + "_" + "xyz"[d] + of, tie.at(key)[d]);
+      for (const char *key : {"max_tension", "max_shear"})
+        add(std::string("tie_") + key + of, tie.at(key));
+    }
   for (const auto &[name, value] : state.at("responses").items())
     add(name, value);
 }

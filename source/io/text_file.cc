@@ -87,7 +87,7 @@ void remove_results(const RunContext &context, const std::vector<std::string> &d
 {
   static const std::regex ours(
     "(solution|contact)(\\.pvd|-\\d{4,}\\.(vtm|pvtu))|"
-    "contact-\\d{4,}\\.csv|(history|gradients|load_cases)\\.csv|summary\\.json|"
+    "(contact|ties)-\\d{4,}\\.csv|(history|gradients|load_cases)\\.csv|summary\\.json|"
     "surface\\.stl|profile\\.step|bodies\\.(msh|inp)|(profile|control-points)\\.csv|"
     "journal\\.txt|warm-start\\.\\d+\\.[01]");
   static const std::regex of_qp("(K|B|R|f|g|bounded|u|lambda)\\.(petsc|mtx)");

@@ -1,7 +1,10 @@
 #include <snug/elasticity/linear_traction.h>
+#include <snug/state/nodal_pressures.h>
 #include <snug/state/reactions.h>
 
+#include <limits>
 #include <map>
+#include <numeric>
 
 namespace snug::state {
 namespace {
@@ -119,6 +122,23 @@ dealii::Tensor<1, dim> place(const contact::Row<dim>                  &row,
   return n == 1 ? x[slave] : sum / weights;
 }
 
+/// Return which surface nodes are on the slave side of each joined pair.
+template <int dim>
+std::vector<std::vector<bool>> slave_side_nodes(const mesh::Surface<dim>    &surface,
+                                                const contact::Contact<dim> &contact)
+{
+  std::vector<std::vector<bool>> result;
+  for (const auto &pair : contact.pairs())
+    {
+      result.emplace_back(surface.n_nodes(), false);
+      for (const auto &face : surface.faces())
+        if (contact::is_on(face, pair.slave))
+          for (const unsigned int node : face.nodes)
+            result.back()[node] = true;
+    }
+  return result;
+}
+
 /// Compute the places where pairs press, without communication, because contact points are
 /// replicated.
 template <int dim>
@@ -126,19 +146,11 @@ void add_places(const StateSolver<dim>     &solver,
                 const RowCoefficients<dim> &rows,
                 ContactState<dim>          &state)
 {
-  const auto                    &contact = solver.contact(state.load_case);
-  const auto                    &placed  = contact.placed_surface();
-  const auto                     x       = placed.to_space(state.surface_positions);
-  const auto                     sizes   = contact::node_face_sizes(solver.surface(), x);
-  std::vector<std::vector<bool>> on_slave_side;
-  for (const auto &pair : contact.pairs())
-    {
-      on_slave_side.emplace_back(solver.surface().n_nodes(), false);
-      for (const auto &face : solver.surface().faces())
-        if (contact::is_on(face, pair.slave))
-          for (const unsigned int node : face.nodes)
-            on_slave_side.back()[node] = true;
-    }
+  const auto &contact       = solver.contact(state.load_case);
+  const auto &placed        = contact.placed_surface();
+  const auto  x             = placed.to_space(state.surface_positions);
+  const auto  sizes         = contact::node_face_sizes(solver.surface(), x);
+  const auto  on_slave_side = slave_side_nodes(solver.surface(), contact);
   for (unsigned int p = 0; p < state.pairs.size(); ++p)
     {
       auto                   &of_pair = state.pairs[p];
@@ -175,6 +187,111 @@ void add_places(const StateSolver<dim>     &solver,
       of_pair.moment = moment_about<dim>(of_pair.centre, forces);
     }
 }
+/// Set the tractions at tied nodes from the forces of their rows.
+template <int dim>
+void set_tractions(const StateSolver<dim> &solver, std::vector<ContactPoint> &points)
+{
+  double largest_area = 0.;
+  for (const auto &point : points)
+    largest_area = std::max(largest_area, point.area);
+  // The area may be round-off, as on the axis with degree 2.
+  const auto has_area = [&](const auto &point) { return point.area > 1e-10 * largest_area; };
+  for (unsigned int d = 0; d <= dim; ++d) // components of the shear traction, then the pressure
+    {
+      std::vector<double> means, shifted;
+      for (const auto &point : points)
+        means.push_back(has_area(point) ? (d < dim ? -point.shear[d] : point.force) / point.area
+                                        : 0.);
+      // Corrections are linear and vanish for equal values, so a shift makes all values positive.
+      double shift = 0.;
+      for (const double mean : means)
+        shift = std::max(shift, 2. * std::abs(mean));
+      for (unsigned int i = 0; i < points.size(); ++i)
+        shifted.push_back(means[i] + (has_area(points[i]) ? shift : 0.));
+      const auto nodal = solver.mesh().degree() == 1
+                           ? shifted
+                           : nodal_pressures(solver.surface(), *solver.ties().paired(), shifted);
+      for (unsigned int i = 0; i < points.size(); ++i)
+        (d < dim ? points[i].traction[d] : points[i].pressure) = means[i] + nodal[i] - shifted[i];
+    }
+}
+
+/// Return the sums and maxima of a tied pair. @p forces are those on the slave side, by rows, and
+/// @p x are the surface nodes.
+template <int dim>
+TieState<dim> sum_of(const StateSolver<dim>                     &solver,
+                     const contact::NamedPair                   &named,
+                     const std::vector<std::vector<Force<dim>>> &forces,
+                     const std::vector<ContactPoint>            &points,
+                     const typename mesh::Surface<dim>::Field   &x)
+{
+  TieState<dim> tie;
+  tie.name        = named.name();
+  tie.max_tension = -std::numeric_limits<double>::infinity();
+  std::vector<Force<dim>> of_pair;
+  for (const auto &[i, share] : named.rows)
+    {
+      const auto  &at      = x[solver.ties().paired()->places()[i].slave];
+      const double tension = -points[i].pressure, shear = points[i].traction.norm();
+      ++tie.nodes;
+      tie.area += share * points[i].area;
+      tie.centre += share * points[i].area * at;
+      for (const auto &[place, force] : forces[i])
+        {
+          of_pair.emplace_back(place, share * resultant(solver, force));
+          tie.force += of_pair.back().second;
+        }
+      if (tension > tie.max_tension)
+        tie.tension_place = at;
+      if (shear >= tie.max_shear)
+        tie.shear_place = at;
+      tie.max_tension = std::max(tie.max_tension, tension);
+      tie.max_shear   = std::max(tie.max_shear, shear);
+    }
+  tie.centre = resultant(solver, tie.centre / tie.area);
+  tie.moment = moment_about<dim>(tie.centre, of_pair);
+  return tie;
+}
+
+template <int dim>
+void add_ties(const StateSolver<dim>     &solver,
+              const RowCoefficients<dim> &rows,
+              ContactState<dim>          &state)
+{
+  if (solver.ties().paired() == nullptr)
+    return;
+  const auto        &ties   = *solver.ties().paired();
+  const unsigned int n      = ties.n_rows();
+  const auto         lambda = solver.gluing(state.load_case).row_forces(state.dual.lambda)[0].ties;
+  const auto        &placed = solver.contact(state.load_case).placed_surface();
+  const auto         x      = placed.to_space(state.surface_positions);
+  const auto         areas  = ties.areas(state.surface_positions);
+  const auto         on_slave_side = slave_side_nodes(solver.surface(), ties);
+  std::vector<unsigned int> normal_row(n); // of each row
+  std::iota(normal_row.begin(), normal_row.end(), 0);
+  for (const auto &tangent : ties.tangents())
+    if (!tangent.is_held)
+      normal_row.push_back(tangent.row);
+  std::vector<std::vector<Force<dim>>> forces(n); // on the slave side
+  state.tied.resize(n);
+  for (unsigned int i = 0; i < lambda.size(); ++i)
+    for (const auto &[node, c] : rows.ties[i].coefficients)
+      if (const unsigned int row = normal_row[i]; on_slave_side[ties.places()[row].pair][node])
+        {
+          const auto force = -lambda[i] * placed.turned(node, c);
+          forces[row].emplace_back(x[node], force);
+          for (int d = 0; i >= n && d < dim; ++d)
+            state.tied[row].shear[d] -= force[d];
+        }
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      state.tied[i].area  = areas[i];
+      state.tied[i].force = lambda[i];
+    }
+  set_tractions(solver, state.tied);
+  for (const auto &named : ties.named_pairs())
+    state.ties.push_back(sum_of(solver, named, forces, state.tied, x));
+}
 } // namespace
 
 template <int dim>
@@ -185,6 +302,7 @@ void add_reactions(const StateSolver<dim>     &solver,
   add_supports(solver, rows, state);
   add_loads(solver, state);
   add_places(solver, rows, state);
+  add_ties(solver, rows, state);
   state.balance = state.load;
   for (const auto &reaction : state.reactions)
     state.balance += reaction.force;

@@ -38,6 +38,13 @@ namespace snug::io {
  * | slip                | of the slave side over the master, in this step  | length          |
  * | friction            | 0 none, 1 open, 2 stick, 3 slip                  |                 |
  *
+ * With tied pairs also, at nodes of their slave sides, zero elsewhere:
+ *
+ * | field               | meaning                                          | units           |
+ * |---------------------|--------------------------------------------------|-----------------|
+ * | tie_tension         | normal traction, negative: pressure               | force/length^2* |
+ * | tie_shear           | shear traction on the slave side                 | force/length^2* |
+ *
  * (*) length in 2D, where forces are per unit thickness.
  *
  * Pressure, gap and flags are given at slave nodes. Hanging nodes interpolate pressure and gap,
@@ -46,7 +53,8 @@ namespace snug::io {
  * point in each pair. In the table a row has the pair with the maximum share in the row.
  * The table also has the numbers of the slave nodes in bodies.msh and bodies.inp, the unit outward
  * normals of the slave side and, in 2D, arc_length, the length along the undeformed boundary from
- * its begin. Its rows are sorted by pair and along the boundaries.
+ * its begin. Its rows are sorted by pair and along the boundaries. Tied pairs have a table of their
+ * own, ties-000i.csv.
  */
 template <int dim>
 class ContactOutput
@@ -63,6 +71,8 @@ public:
     const contact::PlacedSurface<dim>               &placed;
     /// WholeMesh::number_of, on rank 0; not used if there are no rows
     const std::vector<unsigned int> &number_of;
+    /// pairing of tied pairs, or nullptr
+    const contact::Contact<dim> *ties = nullptr;
   };
 
   /// Files go to the directory @p directory, which must exist. Blocks have the @p body_names.

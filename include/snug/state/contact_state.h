@@ -140,6 +140,19 @@ struct PairState
   unsigned int           rows = 0, active_contacts = 0;
 };
 
+/// Sums and maxima over the rows of one tied pair.
+template <int dim>
+struct TieState
+{
+  std::string            name;   ///< "slave: master"
+  dealii::Tensor<1, dim> force;  ///< that the pair transmits to the slave side [force]
+  dealii::Tensor<1, 3>   moment; ///< to the slave side, about the centre
+  dealii::Tensor<1, dim> centre; ///< mean place of the slave nodes, weighted by area
+  double                 area = 0., max_tension = 0., max_shear = 0.;
+  dealii::Tensor<1, dim> tension_place, shear_place; ///< slave nodes of the maxima
+  unsigned int           nodes = 0;
+};
+
 /// Elastic stresses of a body compared with its yield stress, see stress_peaks().
 struct YieldCheck
 {
@@ -205,6 +218,10 @@ struct ContactState
   std::vector<double>         slips_before, slips;
   std::vector<ContactPoint>   contact;
   std::vector<PairState<dim>> pairs;
+  /// at the nodes of Ties::paired(): force, mean and pressure are negative in tension, and traction
+  /// is the shear traction; no gap, slip and flags
+  std::vector<ContactPoint>  tied;
+  std::vector<TieState<dim>> ties; ///< per tied pair
   /// reactions of the supports on the bodies, about the means of their nodes; for sections of
   /// revolution, the force along the axis
   std::vector<Reaction<dim>>   reactions;

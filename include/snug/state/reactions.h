@@ -5,8 +5,10 @@
 
 namespace snug::state {
 /// Compute the forces of supports on the bodies and the places where each pair presses. Set the
-/// reactions and the load of @p state, and moment, centre and peak of its pairs. The reactions are
-/// in equilibrium with all forces on bodies. Collective.
+/// reactions and the load of @p state, moment, centre and peak of its pairs, and the forces and
+/// moments of its tied pairs. Each component of the tractions at tied nodes follows from force /
+/// area by nodal_pressures(). The reactions are in equilibrium with all forces on bodies.
+/// Collective.
 template <int dim>
 void add_reactions(const StateSolver<dim>     &solver,
                    const RowCoefficients<dim> &rows,

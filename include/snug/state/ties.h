@@ -57,8 +57,9 @@ public:
   std::vector<dealii::Tensor<1, dim>> tractions(const Field               &positions,
                                                 const std::vector<double> &forces) const;
 
-  /// Return the contact whose rows are those of the ties. There must be ties.
-  const contact::Contact<dim> &rows_in_contact() const { return *contact; }
+  /// Return the pairing of the nodes, with the normal rows, the places of tangential rows, and the
+  /// areas; nullptr: there are no tied pairs.
+  const contact::Contact<dim> *paired() const { return contact.get(); }
 
 private:
   std::vector<double> with_held(const std::vector<double> &forces) const;

@@ -63,7 +63,7 @@ struct TestScene
 {
   std::vector<TestBody<dim>> bodies;
   mesh::Idealization         idealization = mesh::Idealization::natural(dim);
-  /// if empty, the punch's bottom on the foundation's top
+  /// contacts and tied pairs; if empty, the punch's bottom on the foundation's top
   std::vector<contact::Pair> pairs;
   contact::Method            method         = contact::Method::nodal;  ///< of that pair
   contact::Friction          friction       = contact::Friction::none; ///< of that pair
@@ -284,7 +284,8 @@ public:
             make_loads(scene.bodies[b],
                        scene.cases.empty() ? scene.bodies[b].loads : scene.cases[c][b]));
       }
-    model.pairs = scene.pairs;
+    for (const auto &pair : scene.pairs)
+      (pair.parameters.law == contact::Law::tied ? model.ties : model.pairs).push_back(pair);
     if (scene.pairs.empty() && scene.bodies.size() > 1)
       {
         model.pairs = {{{0, face_index(dim - 1, 0)}, {1, face_index(dim - 1, 1)}}};
