@@ -220,7 +220,7 @@ private:
         for (unsigned int t = 0; t < tied.size(); ++t)
           if (contact::is_on(face, sources.ties->pairs()[t].slave))
             of_tie = tied[t][node];
-        result.push_back(-of_tie.pressure);
+        result.push_back(0. - of_tie.pressure);
         append(of_tie.traction);
       }
     return result;

@@ -211,6 +211,62 @@ TEST(ContactOutput, TableFollowsTheFaceInThePlane)
     }
 }
 
+/// The boxes are tied, and not in contact.
+TEST(ContactOutput, ShowsTensionAndShearOfTiedPairs)
+{
+  const test::ScratchDirectory scratch;
+  ContactScene<3>              scene(1);
+  auto                        &state = scene.state;
+  const auto                   x     = scene.surface.gather(state.positions);
+  contact::Pair                pair{scene.slave, scene.master};
+  pair.parameters.slave  = contact::Slave::first;
+  pair.parameters.method = contact::Method::nodal;
+  const contact::Contact<3> ties(scene.surface, {pair}, 1, x,
+                                 faces::HeldDirections<3>(scene.surface.n_nodes()));
+  scene.pairs.clear();
+  scene.places.clear();
+  state.contact.clear();
+  for (const auto &place : ties.places())
+    {
+      state::ContactPoint point;
+      point.pressure    = -pressure_at(x[place.slave][0]);
+      point.force       = 0.1 * point.pressure;
+      point.area        = 0.1;
+      point.traction[1] = x[place.slave][0];
+      point.shear[1]    = -0.1 * x[place.slave][0];
+      state.tied.push_back(point);
+    }
+  auto sources = scene.sources();
+  sources.ties = &ties;
+  io::ContactOutput<3> output(scratch.path, {}, {"lower", "upper"});
+  output.write(sources, 0., state);
+  if (!scratch.is_first())
+    return;
+  const auto vtu = test::read_blocks(scratch.file("contact-0000"), ".vtu");
+  for (unsigned int p = 0; p < vtu.n_points; ++p)
+    {
+      const double at    = vtu.arrays.at("")[3 * p];
+      const bool   slave = vtu.arrays.at("body")[p] == 1.f;
+      EXPECT_NEAR(vtu.arrays.at("tie_tension")[p], slave ? pressure_at(at) : 0., 1e-6);
+      EXPECT_NEAR(vtu.arrays.at("tie_shear")[3 * p + 1], slave ? at : 0., 1e-6);
+      EXPECT_EQ(vtu.arrays.at("pressure")[p], 0.f);
+    }
+  const auto table = test::read_csv(test::read_file(scratch.file("ties-0000.csv")));
+  ASSERT_EQ(table.size(), state.tied.size() + 1);
+  EXPECT_EQ(table[0], (std::vector<std::string>{"pair", "node", "x", "y", "z", "normal_x",
+                                                "normal_y", "normal_z", "force", "tension", "area",
+                                                "shear_x", "shear_y", "shear_z", "shear_force_x",
+                                                "shear_force_y", "shear_force_z"}));
+  for (unsigned int i = 1; i < table.size(); ++i)
+    {
+      const double at = std::stod(table[i][2]);
+      expect_digits(table[i][8], 0.1 * pressure_at(at));
+      expect_digits(table[i][9], pressure_at(at));
+      expect_digits(table[i][12], at);
+      expect_digits(table[i][15], 0.1 * at);
+    }
+}
+
 TEST(ContactOutput, WithoutPairsIsEmptyButValid)
 {
   const test::ScratchDirectory           scratch;
