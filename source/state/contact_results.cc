@@ -1,3 +1,4 @@
+#include <snug/base/errors.h>
 #include <snug/state/contact_results.h>
 #include <snug/state/continuity.h>
 #include <snug/state/nodal_pressures.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace snug::state {
 template <int dim>
@@ -252,6 +254,23 @@ std::vector<std::string> free_bodies(const StateSolver<dim> &solver, const Conta
   return feti::free_bodies(feti.linearization(), rows);
 }
 
+/// @throws SolveError if supports hold both sides of a tied pair with different displacements.
+template <int dim>
+void require_ties(const StateSolver<dim> &solver, const ContactState<dim> &state)
+{
+  const double small = 1e-4; // part of the largest displacement, far above the tolerance of states
+  const auto   parting = solver.ties().parting(state.surface_positions, state.surface_displacement);
+  double       largest = 0.;
+  for (const auto &u : state.surface_displacement)
+    largest = std::max(largest, u.norm());
+  if (parting.distance <= small * largest)
+    return;
+  std::ostringstream text;
+  text << "no equilibrium: supports part the tied pair '" << parting.pair << "' by up to "
+       << parting.distance;
+  throw SolveError(text.str());
+}
+
 /// Sum up the contact points, which are replicated, so all ranks get the same sums without
 /// communication.
 template <int dim>
@@ -309,6 +328,7 @@ void recover_contact_results(const StateSolver<dim>     &solver,
   make_continuous(feti, &feti.g(), u);
   state.displacement         = nodal_values(solver, u, 0);
   state.surface_displacement = solver.surface().gather(state.displacement);
+  require_ties(solver, state);
   describe_energies(solver, state);
   describe_contact(solver, rows, state);
   sum_up_contact(solver.contact(state.load_case), rows, state);

@@ -111,6 +111,33 @@ std::vector<dealii::Tensor<1, dim>> Ties<dim>::tractions(const Field            
   return result;
 }
 
+/// Leave out the couples of tangential rows that are held, because both sides may turn there.
+template <int dim>
+typename Ties<dim>::Parting Ties<dim>::parting(const Field &positions,
+                                               const Field &displacement) const
+{
+  Parting result;
+  if (!contact)
+    return result;
+  const auto rows    = contact->rows(positions);
+  const auto along   = contact->tangent_directions(rows);
+  const auto compare = [&](const unsigned int row, const double distance) {
+    if (std::abs(distance) > result.distance)
+      result = {std::abs(distance), contact->pairs()[contact->places()[row].pair].name()};
+  };
+  std::vector<dealii::Tensor<1, dim>> moved(rows.size()); // the slave relative to the master
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    {
+      for (const auto &[node, c] : rows[i].coefficients)
+        moved[i] += (c * rows[i].normal) * displacement[node];
+      compare(i, moved[i] * rows[i].normal);
+    }
+  for (unsigned int i = 0; i < along.size(); ++i)
+    if (const auto &tangent = contact->tangents()[i]; tangent.is_held)
+      compare(tangent.row, moved[tangent.row] * along[i]);
+  return result;
+}
+
 template class Ties<2>;
 template class Ties<3>;
 } // namespace snug::state

@@ -130,6 +130,15 @@ class Ties(unittest.TestCase):
                 known = known or found
                 self.assertAlmostEqual(found / known, 1., delta=1e-9)
 
+    def test_supports_that_part_a_tie(self):
+        scene = cantilever([3, 6, 3])
+        scene["Body left"]["Displacement"] = "front: y = 0"
+        scene["Body right"]["Displacement"] = "front: y = 0"
+        self.assertLess(energy(scene), 0.)
+        scene["Body right"]["Displacement"] = "front: y = 0.01"
+        with self.assertRaisesRegex(snug.DesignFailed, "part the tied pair"):
+            energy(scene)
+
     def test_wrong_models(self):
         tied = "Pair left.right: right.left"
         moved = {"Load cases": ["turned"],

@@ -57,6 +57,16 @@ public:
   std::vector<dealii::Tensor<1, dim>> tractions(const Field               &positions,
                                                 const std::vector<double> &forces) const;
 
+  /// Part of a tied pair that a displacement parts.
+  struct Parting
+  {
+    double      distance = 0.; ///< maximum [length]
+    std::string pair;          ///< "slave: master"
+  };
+  /// Return where a @p displacement parts the sides most. Supports that hold both sides differently
+  /// part them, because their rows are left out.
+  Parting parting(const Field &positions, const Field &displacement) const;
+
   /// Return the pairing of the nodes, with the normal rows, the places of tangential rows, and the
   /// areas; nullptr: there are no tied pairs.
   const contact::Contact<dim> *paired() const { return contact.get(); }
