@@ -8,8 +8,8 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "contrib" / "python"))
-import snug  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "contrib/python/tests"))
+from test_snug import snug  # noqa: E402, begins again with Debian's Python if need be
 
 AXES = "xyz"
 TENSION, MODULUS, POISSON = 2., 1000., .3
