@@ -315,7 +315,8 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
             sum(body.temperature,
                 function_of<dim>("Load case " + of.name + "/Temperature", formula));
         }
-      LoadBuilder<dim>(scene, mesh, "Load case " + of.name, "").add(of.loads, cases.back());
+      LoadBuilder<dim>(scene, mesh, "Load case " + of.name, "")
+        .add(scene::loads_on_faces(scene, of.loads), cases.back());
       cases.back().position = position_of<dim>(scene, of);
       if (of.load_step && cases.size() > 1)
         cases.back().after = static_cast<unsigned int>(cases.size()) - 2;
@@ -363,7 +364,8 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
       prescribe(section, body.name + ".", body.loads, [](unsigned int) { return true; });
     }
   for (unsigned int i = 0; i < scene.load_cases.size(); ++i)
-    prescribe("Load case " + scene.load_cases[i].name, "", scene.load_cases[i].loads,
+    prescribe("Load case " + scene.load_cases[i].name, "",
+              scene::loads_on_faces(scene, scene.load_cases[i].loads),
               [i](unsigned int load_case) { return load_case == i; });
   return supports;
 }

@@ -1,4 +1,5 @@
 #include <snug/app/build_model.h>
+#include <snug/app/build_points.h>
 #include <snug/geometry/face_list.h>
 #include <snug/sensitivity/methods.h>
 
@@ -178,6 +179,7 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
   model.supports       = build_supports(scene, mesh);
   model.point_supports = build_point_supports(scene, mesh);
   model.springs        = build_springs(scene, mesh);
+  build_points(scene, mesh, model);
   for (const auto &pair : build_pairs(scene, mesh))
     (pair.parameters.law == contact::Law::tied ? model.ties : model.pairs).push_back(pair);
   return model;

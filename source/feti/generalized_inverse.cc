@@ -94,6 +94,8 @@ GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &system,
                                        const std::string     &what)
   : context(the_context)
 {
+  if (system.is_rigid())
+    return; // K^+ = 0
   auto K_rho = with_coupled(system.K, system.fixing_dofs);
   fix_kernel(K_rho, system.fixing_dofs, rounded_rows(system.R, system.fixing_dofs));
   factor = factors.factorize(K_rho, what);
@@ -102,8 +104,8 @@ GeneralizedInverse::GeneralizedInverse(const SubdomainSystem &system,
 void GeneralizedInverse::apply(const qp::MultiVector &b, qp::MultiVector &x) const
 {
   // Skip the solve for zero loads: most subdomains carry no load.
-  const bool is_zero = std::all_of(b.column(0), b.column(b.n_columns()),
-                                   [](const double value) { return value == 0.; });
+  const bool is_zero = !factor || std::all_of(b.column(0), b.column(b.n_columns()),
+                                              [](const double value) { return value == 0.; });
   if (is_zero)
     {
       std::fill(x.column(0), x.column(x.n_columns()), 0.);

@@ -92,7 +92,7 @@ std::vector<double> Linearization::gather_entries()
     for (const BEntry &entry : rows[s])
       {
         values.push_back(entry.value);
-        values.push_back(1. / systems[s].K.diagonal(entry.dof));
+        values.push_back(systems[s].compliance(entry.dof));
         for (unsigned int mode = 0; mode < table().n_modes; ++mode)
           values.push_back(entry.value * systems[s].R(entry.dof, mode));
       }
@@ -104,7 +104,7 @@ std::vector<double> Linearization::gather_entries()
         double *entry = &gathered[std::size_t(e) * width];
         // Use diag K also for scaling by multiplicity, because F_diagonal must be a compliance.
         F_diagonal[row] += entry[0] * entry[0] * entry[1];
-        if (structure.parameters.scaling != Scaling::stiffness)
+        if (structure.parameters.scaling != Scaling::stiffness && entry[1] > 0.)
           entry[1] = 1.;
       }
   weight_ground(gathered);
@@ -141,7 +141,7 @@ void Linearization::weight_rows()
       {
         // B D^-1 is numbered by the unknowns of the Schur complement.
         if (structure.parameters.scaling == Scaling::stiffness)
-          entry.value *= 1. / systems[s].K.diagonal(entry.dof);
+          entry.value *= systems[s].compliance(entry.dof);
         entry.dof = operators.factors[s]->schur->boundary_position()[entry.dof];
       }
 }
@@ -200,6 +200,8 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   std::vector<unsigned int> counts(2, 0);
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
+      if (systems[s].is_rigid())
+        continue;
       const auto modes_of_s =
         feti::soft_modes(systems[s], *operators.factors[s], columns[s], neighbours[s], first + s);
       if (modes_of_s.mu.empty())

@@ -98,6 +98,8 @@ CsrMatrix LocalSchur::extract(const CsrMatrix &K,
 qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const
 {
   qp::MultiVector y(n_b, x.n_columns());
+  if (bb.columns().empty())
+    return y; // K = 0
   bb.add_symmetric_product(x, y);
   if (!factor)
     return y;

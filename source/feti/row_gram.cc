@@ -47,7 +47,7 @@ void solve_group(const RowGramStructure::Group &group,
 }
 } // namespace
 
-RowGramStructure::RowGramStructure(const RowLayout &layout)
+RowGramStructure::RowGramStructure(const RowLayout &layout, const SubdomainTable &table)
 {
   const auto                                &start    = layout.entry_start();
   const auto                                &unknowns = layout.entry_unknowns();
@@ -57,6 +57,10 @@ RowGramStructure::RowGramStructure(const RowLayout &layout)
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     for (unsigned int e = start[row]; e < start[row + 1]; ++e)
       {
+        row_of_entry.push_back(row);
+        // The motion of a rigid body would couple all of its rows, but has no weight in W.
+        if (table.is_rigid(unknowns[e].subdomain))
+          continue;
         // Unknowns are numbered in the order of the rows. Rows that share an unknown have one owner
         // (RowLayout), so W is block diagonal over ranks, and each rank factorizes its own part.
         const auto found = index.emplace(unknowns[e], unsigned(index.size())).first;
@@ -68,7 +72,6 @@ RowGramStructure::RowGramStructure(const RowLayout &layout)
         entries_of_unknown[found->second].push_back(e);
         rows_of_unknown[found->second].push_back(row);
         unknowns_of_row[row].push_back(found->second);
-        row_of_entry.push_back(row);
       }
   // A contact row that leaves M changes W_M^-1 on all rows that its block couples. Only these
   // blocks must be factorized again when the set changes. Gluing rows elsewhere keep their factor.
@@ -84,7 +87,7 @@ RowGramStructure::RowGramStructure(const RowLayout &layout)
       std::vector<std::vector<PetscInt>> pattern;
       for (const unsigned int row : group->rows)
         {
-          std::vector<PetscInt> columns;
+          std::vector<PetscInt> columns{PetscInt(place[row].second)};
           for (const unsigned int unknown : unknowns_of_row[row])
             for (const unsigned int other : rows_of_unknown[unknown])
               columns.push_back(place[other].second);
@@ -122,6 +125,10 @@ RowGram::RowGram(const RowGramStructure    &the_structure,
       auto &A                    = in_contact ? contact : of_fixed;
       A.values[A.position(i, i)] += ground[row];
     }
+  for (CsrMatrix *A : {&contact, &of_fixed})
+    for (unsigned int i = 0; i < A->n_rows(); ++i)
+      if (double &diagonal = A->values[A->position(i, i)]; diagonal == 0.)
+        diagonal = 1.;
   if (!structure.fixed.rows.empty())
     fixed = structure.factors.factorize(of_fixed, "B D^-1 B' of the gluing rows");
 }

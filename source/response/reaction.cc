@@ -67,6 +67,7 @@ public:
     const auto    on_surface = surface.gather(v);
     const auto   &x          = state.surface_positions;
     const auto    rows       = solver.rows(state.positions, state.load_case);
+    const auto    forces     = row_forces(solver, state);
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
     for (unsigned int s = 0; s < v_torn.size(); ++s)
@@ -83,10 +84,10 @@ public:
       }
     state::add_stiffness_gradient(solver, state, v_torn, 1., result.positions);
     state::add_load_gradient(solver, state, v_torn, -1., result.positions);
-    surface.add_owned(contact.coefficient_gradient(
-                        x, on_surface,
-                        contact.forces(rows.contact, state::contact_row_forces(solver, state))),
+    surface.add_owned(contact.coefficient_gradient(x, on_surface,
+                                                   contact.forces(rows.contact, forces.contact)),
                       result.positions);
+    surface.add_owned(solver.ties().energy_gradient(x, on_surface, forces.ties), result.positions);
     if (is_moment)
       add_lever_gradient(solver, state, result.positions);
     return result;
@@ -192,6 +193,12 @@ private:
     return result;
   }
 
+  static typename state::Gluing<dim>::RowForces row_forces(const state::StateSolver<dim>  &solver,
+                                                           const state::ContactState<dim> &state)
+  {
+    return solver.gluing(state.load_case).row_forces(state.dual.lambda).front();
+  }
+
   /// Return r at the local nodes, as shares that add up over ranks. The gluing forces of the copies
   /// of a node cancel.
   static mesh::Field<dim> nodal_forces(const state::StateSolver<dim>  &solver,
@@ -212,7 +219,7 @@ private:
     const auto                        &surface = solver.surface();
     typename mesh::Surface<dim>::Field of_rows(surface.n_nodes());
     const auto                         rows   = solver.rows(state.positions, state.load_case);
-    const auto                         forces = state::contact_row_forces(solver, state);
+    const auto                         forces = row_forces(solver, state).all;
     for (unsigned int i = 0; i < rows.n_rows(); ++i)
       for (const auto &[node, c] : rows.row(i).coefficients)
         of_rows[node] += forces[i] * c;

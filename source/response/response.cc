@@ -4,6 +4,13 @@ namespace snug::response {
 namespace {
 using Parameters = ResponseParameters;
 
+/// Return the response of a face, or that of the reference point if one is given.
+template <int dim, auto of_face, auto of_point, bool turns>
+std::unique_ptr<Response<dim>> of_face_or_point(const Parameters &parameters)
+{
+  return parameters.reference_point.empty() ? of_face(parameters) : of_point(parameters, turns);
+}
+
 /// Return the responses of bodies. Work derives its partial derivatives from the given
 /// factors of 1/2 u'Ku and f'u.
 template <int dim>
@@ -27,20 +34,22 @@ ChoiceTable<MakeResponse<dim>> body_responses()
     {"mass", "density times volume of one body or all bodies [mass]",
      [](const Parameters &parameters) { return body_integral<dim>(parameters, true); }},
     {"displacement",
-     "component of the displacement at a point, or of its mean over a face [length]",
-     displacement<dim>},
+     "component of the displacement at a point, of a reference point, or of its mean over a face "
+     "[length]",
+     of_face_or_point<dim, displacement<dim>, point_motion<dim>, false>},
     {"rotation",
      "rotation of the rigid motion nearest to the displacement of a face, about the axis "
      "'Component', positive from x to y about z [rad]. It is the compliance over the moment if "
-     "'Moment' of the face is the only load.",
-     rotation<dim>},
+     "'Moment' of the face is the only load. Or rotation of a reference point.",
+     of_face_or_point<dim, rotation<dim>, point_motion<dim>, true>},
     {"reaction",
-     "component in space of the force that the supports and springs of a face apply to its nodes "
-     "[force]",
-     reaction<dim>},
+     "component in space of the force that the supports and springs of a face apply to its nodes, "
+     "or the supports of a reference point to the point [force]",
+     of_face_or_point<dim, reaction<dim>, point_reaction<dim>, false>},
     {"reaction moment",
-     "moment of these forces about the axis 'Component' through 'Point' in space [force length]",
-     reaction_moment<dim>},
+     "moment of these forces about the axis 'Component' through 'Point' in space, or of the "
+     "supports of a reference point about the point [force length]",
+     of_face_or_point<dim, reaction_moment<dim>, point_reaction<dim>, true>},
     {"von Mises norm",
      "p-norm of the von Mises stress over one body or all bodies, divided by the p-norm of 1 "
      "[force/length^2]",

@@ -20,6 +20,9 @@ void ResponseParameters::declare(Entries &entries)
     "The point of a displacement in the reference geometry, which a design moves with "
     "the body; or a point of the axis of a moment, by default the origin. A point outside of the "
     "bodies by up to a tenth of a cell is moved onto the nearest cell. Units: length.");
+  entries.add("Reference point", reference_point, allowed("the name of a reference point"),
+              "The reference point of a displacement, a rotation, a reaction or a reaction moment, "
+              "instead of 'Face'.");
   entries.add("Component", component,
               "The component of a displacement or a force, or the axis of a rotation or a moment, "
               "which is z in 2D.");

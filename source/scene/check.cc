@@ -75,7 +75,8 @@ void check_all_loads(const Scene &scene, const Origins &origins)
   for (const auto &load_case : scene.load_cases)
     {
       const SectionCheck section(load_case.section(), origins, scene.dimension);
-      load_case.loads.check(section, [&](const auto &entry, const auto &value, const auto &face) {
+      const auto         loads = loads_on_faces(scene, load_case.loads);
+      loads.check(section, [&](const auto &entry, const auto &value, const auto &face) {
         require_face(scene, section, entry, value, face);
       });
       auto names = names_of(scene.bodies);
@@ -101,7 +102,7 @@ void check_all_loads(const Scene &scene, const Origins &origins)
                       "Position", to_text(load_case.positions, ';'),
                       "must be empty for Model = axisymmetric");
       auto held_here = held;
-      load_case.loads.check_displacements(section, "", held_here);
+      loads.check_displacements(section, "", held_here);
     }
   const bool no_weight = std::all_of(scene.load_cases.begin(), scene.load_cases.end(),
                                      [](const auto &of) { return of.weight == 0.; });
@@ -191,6 +192,7 @@ void check_names(const Scene &scene, const Origins &origins)
   check_list_of_names("Load cases", names_of(scene.load_cases), origins);
   check_list_of_names("Materials", names_of(scene.materials), origins);
   check_list_of_names("Obstacles", names_of(scene.obstacles), origins);
+  check_list_of_names("Reference points", names_of(scene.points), origins);
   check_list_of_names("Responses", names_of(scene.responses), origins);
   if (scene.shapes.size() > 1 || !scene.shapes.front().name.empty())
     check_list_of_names("Shapes", names_of(scene.shapes), origins);
@@ -211,6 +213,7 @@ void check(const Scene &scene, const Origins &origins)
   check_all_loads(scene, origins);
   check_export(scene, origins);
   check_contact(scene, origins);
+  check_points(scene, origins);
   check_shapes(scene, origins);
   check_responses(scene, origins);
   check_friction(scene, origins);

@@ -25,6 +25,12 @@ void check_places(const Scene &scene, const SectionCheck &section, const Paramet
                   "Body", response.body, "there is no body '" + quotable(response.body) + "'");
   if (!response.face.empty())
     require_face(scene, section, "Face", response.face, response.face);
+  const auto points = names_of(scene.points);
+  section.require(response.reference_point.empty() ||
+                    std::find(points.begin(), points.end(), response.reference_point) !=
+                      points.end(),
+                  "Reference point", response.reference_point, "there is no such reference point",
+                  suggestion(response.reference_point, points));
   if (!response.reads("Pair"))
     return;
   std::vector<std::string> known;

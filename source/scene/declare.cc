@@ -52,6 +52,10 @@ void declare_general(Entries &entries, Scene &scene)
             "refer to materials by their names.");
   add_names(entries, "Obstacles", scene.obstacles,
             "The names of the rigid obstacles. Each obstacle has a subsection Obstacle NAME.");
+  add_names(entries, "Reference points", scene.points,
+            "The names of points with a rigid motion that faces and obstacles follow. Each point "
+            "has a subsection Reference point NAME. Load cases may have entries for them in "
+            "'Force', 'Moment' and 'Displacement', as 'NAME: 0 0 -100' and 'NAME: rz = 0.01'.");
   add_names(entries, "Shapes", scene.shapes,
             "The names of the shapes. Each shape has a subsection Shape NAME. An empty list means "
             "one shape without a name, in subsection Shape.");
@@ -134,6 +138,9 @@ void declare(Entries &entries, Scene &scene)
     "do not "
     "prescribe it.");
   declare_named(entries, scene.obstacles, "A rigid obstacle.");
+  declare_named(entries, scene.points,
+                "A point with a rigid motion, under forces and moments, that faces and obstacles "
+                "follow. Components that a load case prescribes are free in other load cases.");
   entries.begin_section("Contact",
                         "The pairs of faces that may come into contact, and the method.");
   scene.contact.declare(entries);

@@ -107,14 +107,15 @@ void make(const std::vector<Statement> &statements,
     }
 }
 
-/// Make bodies, load cases, materials, obstacles, responses and shapes in a first pass, with
-/// names but without contents.
+/// Make bodies, load cases, materials, obstacles, points, responses and shapes in a first pass,
+/// with names but without contents.
 void make_named(const std::vector<Statement> &statements, Scene &scene)
 {
   make(statements, "Bodies", scene.bodies);
   make(statements, "Load cases", scene.load_cases);
   make(statements, "Materials", scene.materials);
   make(statements, "Obstacles", scene.obstacles);
+  make(statements, "Reference points", scene.points);
   make(statements, "Responses", scene.responses);
   make(statements, "Shapes", scene.shapes);
   if (scene.shapes.empty())

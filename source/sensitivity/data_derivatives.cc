@@ -229,14 +229,16 @@ state::RowCoefficients<dim> row_derivatives(const state::StateSolver<dim>  &solv
         }
       add(stencil.weights[k] / step, rows, result);
     }
-  // Springs and ties are differentiated exactly, and tangential rows are known functions of the
-  // normal rows.
+  // Springs, ties and motions of points are differentiated exactly, and tangential rows are known
+  // functions of the normal rows.
   result.springs      = solver.springs().row_derivatives(X, V);
   const auto &contact = solver.contact(state.load_case);
   const auto &surface = solver.surface();
   const auto  x = surface.gather(X), v = surface.gather(V);
   result.tangents = contact.tangent_row_derivatives(x, v, contact.rows(x), result.contact);
   result.ties     = solver.ties().row_derivatives(x, v);
+  if (!solver.points().empty())
+    solver.points().differentiate(x, v, solver.rows(X, state.load_case), contact, result);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/state/cell_gradients.h>
 #include <snug/state/contact_results.h>
+#include <snug/state/point_results.h>
 
 namespace snug::sensitivity {
 namespace {
@@ -39,6 +40,19 @@ void add_rows(const state::StateSolver<dim>  &solver,
   auto total = contact.energy_gradient(X, sum, lambda);
   for (unsigned int a = 0; a < total.size(); ++a)
     total[a] += of_u[a] - of_w[a] + ties[a] - ties_of_w[a];
+  if (!solver.points().empty())
+    {
+      const auto all = solver.rows(state.positions, state.load_case);
+      const auto add = [&](const feti::PrimalVectors &of, const unsigned int column,
+                           const std::vector<double> &row_forces, const double factor) {
+        const auto q = state::point_motions(solver, of, column);
+        const auto G = solver.points().energy_gradient(X, q, row_forces, all, contact);
+        for (unsigned int a = 0; a < total.size(); ++a)
+          total[a] += factor * G[a];
+      };
+      add(state.u, 0, forces[1].all, 1.);
+      add(adjoint.primal, j, forces[0].all, -1.);
+    }
   surface.add_owned(total, gradient);
 }
 

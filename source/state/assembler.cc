@@ -82,6 +82,8 @@ template <int dim>
 feti::CsrMatrix Assembler<dim>::sparsity() const
 {
   std::vector<std::vector<PetscInt>> rows;
+  if (is_point())
+    rows.resize(n_dofs());
   for (const auto &neighbours : node_neighbours)
     for (unsigned int c = 0; c < dim; ++c)
       {
@@ -127,6 +129,8 @@ std::vector<double> Assembler<dim>::load(const Field     &positions,
                                          unsigned int     load_case,
                                          const Tractions &tractions) const
 {
+  if (is_point())
+    return point_load(load_case);
   std::vector<double> f(n_dofs(), 0.);
   Nodes               r;
   if (has_cell_loads(load_case))
@@ -140,6 +144,19 @@ std::vector<double> Assembler<dim>::load(const Field     &positions,
   return f;
 }
 
+/// Return force and moment, divided by the length by which rotations are multiplied.
+template <int dim>
+std::vector<double> Assembler<dim>::point_load(const unsigned int load_case) const
+{
+  std::vector<double> f(n_dofs(), 0.);
+  const unsigned int  p = subdomain.body - mesh.n_bodies();
+  if (const auto &points = model.load_cases[load_case].points; !points.empty())
+    std::copy(points[p].wrench.begin(), points[p].wrench.end(), f.begin());
+  for (unsigned int k = dim; k < f.size(); ++k)
+    f[k] /= model.points[p].length;
+  return f;
+}
+
 /// Compute the modes about the centre of the subdomain, because about a far centre a rotation is
 /// nearly a translation, and orthogonalization would lose digits. Divided by the radius, all modes
 /// are of size one.
@@ -150,6 +167,14 @@ void Assembler<dim>::rigid_modes(const Field                  &positions,
                                  qp::MultiVector              &R,
                                  qp::MultiVector              &Z) const
 {
+  if (is_point())
+    {
+      R = qp::MultiVector(n_dofs(), n_dofs());
+      for (unsigned int k = 0; k < n_dofs(); ++k)
+        R(k, k) = 1.;
+      Z = R;
+      return;
+    }
   Nodes                  x;
   dealii::Tensor<1, dim> mean;
   for (const unsigned int node : subdomain.nodes)
@@ -183,6 +208,8 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
   for (unsigned int a = 0; a < n; ++a)
     distance[a] = (positions[subdomain.nodes[a]] - mean).norm();
   std::vector<unsigned int> dofs;
+  for (unsigned int k = 0; is_point() && k < n_dofs(); ++k)
+    dofs.push_back(k);
   for (unsigned int k = 0; k < std::min(n_fixing, n); ++k)
     {
       // Take the first of the nodes that are equally far up to round-off, so that congruent
@@ -208,6 +235,8 @@ std::vector<unsigned int> Assembler<dim>::fixing_dofs(const Field &positions) co
 template <int dim>
 bool Assembler<dim>::is_compact(const Field &positions) const
 {
+  if (is_point())
+    return true;
   // Cubes of m^dim cells of degree p have (m p + 1)^dim nodes; ragged parts have more nodes.
   const double edge  = std::pow(cells().size(), 1. / dim) * mesh.degree() + 1.;
   const double usual = std::pow(edge, dim);

@@ -1,5 +1,6 @@
 #include <snug/state/cell_gradients.h>
 #include <snug/state/contact_results.h>
+#include <snug/state/point_results.h>
 
 namespace snug::state {
 namespace {
@@ -135,10 +136,17 @@ void add_constraint_gradient(const state::StateSolver<dim>       &solver,
     solver.contact(state.load_case)
       .energy_gradient(state.surface_positions, state.surface_displacement, {forces});
   surface.add_owned(at_surface, gradient);
-  const auto of_ties = solver.gluing(state.load_case).row_forces(state.dual.lambda).front().ties;
+  const auto of_rows = solver.gluing(state.load_case).row_forces(state.dual.lambda).front();
   surface.add_owned(solver.ties().energy_gradient(state.surface_positions,
-                                                  state.surface_displacement, of_ties),
+                                                  state.surface_displacement, of_rows.ties),
                     gradient);
+  if (!solver.points().empty())
+    surface.add_owned(solver.points().energy_gradient(state.surface_positions,
+                                                      point_motions(solver, state.u, 0),
+                                                      of_rows.all,
+                                                      solver.rows(state.positions, state.load_case),
+                                                      solver.contact(state.load_case)),
+                      gradient);
   // reactions() treats contact rows as if they were not projected off the held directions, as
   // energy_gradient() above does.
   if (solver.held().follow_positions())

@@ -13,7 +13,7 @@ elasticity::ThermalStrain<dim> Assembler<dim>::thermal_strain(unsigned int i,
 template <int dim>
 bool Assembler<dim>::has_cell_loads(unsigned int load_case) const
 {
-  return has_body_force(load_case) || loads(load_case).temperature;
+  return !is_point() && (has_body_force(load_case) || loads(load_case).temperature);
 }
 
 template <int dim>

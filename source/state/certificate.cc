@@ -115,7 +115,7 @@ double largest_load_product(const feti::LoadedProblem &feti)
   const auto &systems = feti.linearization().subdomains();
   for (unsigned int s = 0; s < systems.size(); ++s)
     for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
-      largest = larger(largest, std::abs(feti.loads()[s](i)) / systems[s].K.diagonal(i));
+      largest = larger(largest, std::abs(feti.loads()[s](i)) * systems[s].compliance(i));
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, feti.context().communicator());
   return largest;
 }

@@ -60,7 +60,9 @@ std::vector<Integrals> integrals(const StateSolver<dim> &solver, const ContactSt
   for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
     {
       const auto &assembler = *solver.assemblers()[s];
-      Integrals  &of_body   = result[solver.tearing().subdomains[s].body];
+      if (assembler.is_point())
+        continue;
+      Integrals &of_body = result[solver.tearing().subdomains[s].body];
       for (unsigned int i = 0; i < assembler.cells().size(); ++i)
         {
           const auto X = assembler.cell_field(i, state.positions);

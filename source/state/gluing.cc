@@ -41,15 +41,16 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
                     const RowCoefficients<dim>                &reference,
                     const std::vector<contact::Tangent>       &tangents,
                     const std::vector<unsigned int>           &clusters,
-                    const double                               modulus)
+                    const Model<dim>                          &model,
+                    const unsigned int                         load_case)
   : held(held)
-  , rows(mesh, tearing, surface, held, reference, tangents, clusters, modulus)
+  , model(model)
+  , rows(mesh, tearing, surface, held, reference, tangents, clusters, model, load_case)
   , n_tangents(narrow<unsigned int>(tangents.size()))
+  , n_ties(narrow<unsigned int>(reference.ties.size()))
 {
   for (const auto &row : rows.owned)
-    // The number of all contact rows stands for rows of gluing, ties and supports.
-    owned_contact.push_back(row.source == Source::contact ? std::min(row.index, rows.n_bounded)
-                                                          : rows.n_bounded);
+    owned_contact.push_back(row.source == Source::contact ? row.index : reference.n_rows());
 }
 
 template <int dim>
@@ -130,6 +131,8 @@ void Gluing<dim>::fill_B(unsigned int                s,
         }
       else if (entry.source == Source::spring)
         value *= now.springs[entry.index].coefficients[entry.item].second[entry.dof % dim];
+      else if (entry.source == Source::point)
+        value *= now.points[entry.index].values[entry.item];
       B.push_back({entry.local_row, entry.dof, value});
     }
 }
@@ -148,6 +151,8 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
         value = derivative.held[entry.index].directions[entry.item][entry.dof % dim];
       else if (entry.source == Source::spring)
         value = derivative.springs[entry.index].coefficients[entry.item].second[entry.dof % dim];
+      else if (entry.source == Source::point)
+        value = derivative.points[entry.index].values[entry.item];
       else if (entry.source == Source::contact)
         {
           const auto        &c      = now.row(entry.index).coefficients[entry.item];
@@ -200,6 +205,12 @@ qp::MultiVector Gluing<dim>::right_hand_side(const RowCoefficients<dim> &now,
         g(i) = row.factor * rows.gap(row.index, now, load_case);
       else if (row.source == Source::held)
         g(i) = row.factor * now.held[row.index].values[row.item][load_case];
+      else if (row.source == Source::point)
+        {
+          const auto &motion = rows.held_motions[row.index];
+          g(i) =
+            row.factor * *model.load_cases[load_case].points[motion.point].held[motion.unknown];
+        }
     }
   return g;
 }
@@ -262,7 +273,7 @@ Gluing<dim>::row_forces(const qp::MultiVector &multipliers) const
         // A row that supports hold entirely has no multiplier.
         forces[i] = rows.scales[i] == 0. ? 0. : forces[i] / rows.scales[i];
       const auto ties = forces.begin() + rows.n_bounded;
-      result.push_back({{forces.begin(), ties}, {ties, forces.end()}});
+      result.push_back({{forces.begin(), ties}, {ties, ties + n_ties}, forces});
     }
   return result;
 }
@@ -292,9 +303,7 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const qp::MultiVector   
   // lambda_i / nr_i (projected c . u - projected gap) contains -(c . q_k) (q_k . u - s_k) in
   // addition to c . u - gap, and this part goes to the supports. Add it after the sum over ranks,
   // because gathered multipliers are the same on all ranks.
-  auto        forces  = row_forces(lambda).front().contact;
-  const auto &of_ties = row_forces(lambda).front().ties;
-  forces.insert(forces.end(), of_ties.begin(), of_ties.end());
+  const auto forces = row_forces(lambda).front().all;
   for (unsigned int i = 0; i < forces.size(); ++i)
     for (const auto &c : now.row(i).coefficients)
       {
@@ -309,6 +318,21 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const qp::MultiVector   
   for (unsigned int h = 0; h < held.n_nodes(); ++h)
     result.emplace_back(values.begin() + dim * h,
                         values.begin() + dim * h + now.held[h].directions.size());
+  return result;
+}
+
+template <int dim>
+std::vector<std::vector<double>> Gluing<dim>::point_reactions(const double *owned_lambda) const
+{
+  std::vector<double> values(rows.held_motions.size(), 0.);
+  for (unsigned int i = 0; i < rows.owned.size(); ++i)
+    if (rows.owned[i].source == Source::point)
+      values[rows.owned[i].index] = -owned_lambda[i] * rows.owned[i].factor;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), narrow<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                rows.layout->communicator());
+  std::vector<std::vector<double>> result(model.points.size(), std::vector<double>(6, 0.));
+  for (unsigned int i = 0; i < values.size(); ++i)
+    result[rows.held_motions[i].point][rows.held_motions[i].unknown] = values[i];
   return result;
 }
 

@@ -83,14 +83,15 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
                             const RowCoefficients<dim>                &reference,
                             const std::vector<contact::Tangent>       &tangents,
                             const std::vector<unsigned int>           &clusters,
-                            const double                               modulus)
+                            const Model<dim>                          &model,
+                            const unsigned int                         load_case)
   : mesh(mesh), surface(surface), held(held)
 {
   // The order matters, because scales need the copies of the surface nodes, and the numbers of
   // contact rows come after those of gluing and supports on the same rank.
   n_bounded = narrow<unsigned int>(reference.contact.size() + reference.tangents.size());
   collect_surface(tearing);
-  scale_rows(reference, tangents, modulus);
+  scale_rows(reference, tangents, largest_modulus(model));
   // The rank of the first node of a cluster owns all rows at the nodes of the cluster, so that
   // B D^-1 B' is block diagonal over ranks.
   const auto           ranks = ranks_of_nodes(mesh, surface, clusters, reference.springs);
@@ -98,7 +99,10 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
   std::vector<Message> messages;
   number_node_rows(nodes, reference, messages);
   number_spring_rows(nodes, reference, messages);
-  number_contact_rows(nodes, reference, ranks, messages);
+  number_contact_rows(nodes, reference, ranks, tearing.n_global - tearing.n_points, messages);
+  // Load cases hold different motions. Their rows come last, so that all other rows have the same
+  // numbers in all load cases.
+  number_held_motions(tearing, model, load_case, messages);
   send_entries(messages, tearing);
 }
 
@@ -207,12 +211,16 @@ template <int dim>
 void GluingRows<dim>::number_contact_rows(const Copies                               &nodes,
                                           const RowCoefficients<dim>                 &reference,
                                           const std::map<unsigned int, unsigned int> &rank_of_node,
+                                          const unsigned int                          first_point,
                                           std::vector<Message>                       &messages)
 {
-  const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
+  auto               on_point = reference.points.begin(); // entries of row i
+  const unsigned int my_rank  = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
   for (unsigned int i = 0; i < reference.n_rows(); ++i)
     {
       const auto &coefficients = reference.row(i).coefficients;
+      while (on_point != reference.points.end() && on_point->row < i)
+        ++on_point;
       // A vanished row would be a zero row of B, so StateProblem checks its gap instead. All nodes
       // of a row are in one cluster, so the first node determines the owner.
       if (scales[i] == 0. ||
@@ -234,6 +242,15 @@ void GluingRows<dim>::number_contact_rows(const Copies                          
                 message.factor[c] = 1. / (scales[i] * subdomains.size());
             }
         }
+      const unsigned int n_unknowns = mesh.idealization().n_rigid_motions();
+      for (auto p = on_point; p != reference.points.end() && p->row == i; ++p)
+        for (unsigned int k = 0; k < n_unknowns; ++k)
+          {
+            const auto index = narrow<unsigned int>(p - reference.points.begin());
+            messages.push_back({first_point + p->point, 0, narrow<unsigned int>(owned.size()),
+                                Source::point, index, k});
+            messages.back().factor[0] = 1. / scales[i];
+          }
       owned.push_back({Source::contact, i, 0, 1. / scales[i]});
     }
 }
@@ -276,6 +293,33 @@ void GluingRows<dim>::number_spring_rows(const Copies               &nodes,
     }
 }
 
+/// Number the rows that hold motions of reference points. The last rank, which has the subdomains
+/// of the points, owns them.
+template <int dim>
+void GluingRows<dim>::number_held_motions(const mesh::Tearing  &tearing,
+                                          const Model<dim>     &model,
+                                          const unsigned int    load_case,
+                                          std::vector<Message> &messages)
+{
+  const auto &points = model.load_cases[load_case].points;
+  for (unsigned int p = 0; p < points.size(); ++p)
+    for (unsigned int k = 0; k < points[p].held.size(); ++k)
+      if (points[p].held[k])
+        held_motions.push_back({p, k});
+  const MPI_Comm comm = mesh.communicator();
+  if (dealii::Utilities::MPI::this_mpi_process(comm) + 1 !=
+      dealii::Utilities::MPI::n_mpi_processes(comm))
+    return;
+  for (unsigned int i = 0; i < held_motions.size(); ++i)
+    {
+      const auto [p, k] = held_motions[i];
+      messages.push_back({tearing.n_global - tearing.n_points + p, 0,
+                          narrow<unsigned int>(owned.size()), Source::constant, 0, k});
+      messages.back().factor[0] = 1.;
+      owned.push_back({Source::point, i, 0, k < dim ? 1. : model.points[p].length});
+    }
+}
+
 template <int dim>
 void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
                                    const mesh::Tearing        &tearing)
@@ -306,6 +350,13 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
       {
         const unsigned int s     = message.subdomain - tearing.first_id;
         const auto        &nodes = tearing.subdomains[s].nodes;
+        if (nodes.empty()) // a reference point
+          {
+            layout_entries[s].push_back({message.row, message.item});
+            entries[s].push_back({message.row, message.item, message.factor[0], message.source,
+                                  message.index, message.item});
+            continue;
+          }
         const unsigned int slot =
           std::lower_bound(nodes.begin(), nodes.end(), mesh.local_node(message.node)) -
           nodes.begin();
@@ -324,7 +375,8 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
     {
       // lambda_i >= 0 for contact, while multipliers of gluing, ties and supports have any sign.
       bounded.push_back(row.source == Source::contact && row.index < n_bounded);
-      tied.push_back(row.source == Source::contact && row.index >= n_bounded);
+      tied.push_back(row.source == Source::point ||
+                     (row.source == Source::contact && row.index >= n_bounded));
     }
   layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id, tied);
   for (auto &of_subdomain : entries)

@@ -40,7 +40,9 @@ std::vector<std::vector<StressPoint<dim>>> stress_points(const StateSolver<dim> 
   for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
     {
       const auto &assembler = *solver.assemblers()[s];
-      auto       &of_body   = result[solver.tearing().subdomains[s].body];
+      if (assembler.is_point())
+        continue;
+      auto &of_body = result[solver.tearing().subdomains[s].body];
       for (unsigned int i = 0; i < assembler.cells().size(); ++i)
         {
           const auto X = assembler.cell_field(i, state.positions);

@@ -1,5 +1,6 @@
 #include <snug/elasticity/linear_traction.h>
 #include <snug/state/nodal_pressures.h>
+#include <snug/state/point_results.h>
 #include <snug/state/reactions.h>
 
 #include <limits>
@@ -86,8 +87,15 @@ void add_loads(const StateSolver<dim> &solver, ContactState<dim> &state)
     {
       const auto            &f = feti.loads()[s];
       dealii::Tensor<1, dim> of_subdomain;
-      for (unsigned int i = 0; i < f.n_rows(); ++i)
-        of_subdomain[i % dim] += f(i);
+      if (solver.assemblers()[s]->is_point())
+        {
+          const unsigned int first = f.n_rows() == 1 ? 1 : 0; // the force along the axis
+          for (unsigned int c = first; c < dim; ++c)
+            of_subdomain[c] = f(c - first);
+        }
+      else
+        for (unsigned int i = 0; i < f.n_rows(); ++i)
+          of_subdomain[i % dim] += f(i);
       of_subdomain =
         solver.motion(state.load_case, solver.tearing().subdomains[s].body).vector(of_subdomain);
       for (unsigned int c = 0; c < dim; ++c)
@@ -301,6 +309,7 @@ void add_reactions(const StateSolver<dim>     &solver,
                    ContactState<dim>          &state)
 {
   add_supports(solver, rows, state);
+  add_points(solver, state);
   add_loads(solver, state);
   add_places(solver, rows, state);
   add_ties(solver, rows, state);
@@ -308,7 +317,8 @@ void add_reactions(const StateSolver<dim>     &solver,
   for (const auto &reaction : state.reactions)
     state.balance += reaction.force;
   for (unsigned int p = 0; p < state.pairs.size(); ++p)
-    if (solver.contact(state.load_case).named_pairs()[p].obstacle)
+    if (const auto &obstacle = solver.contact(state.load_case).named_pairs()[p].obstacle;
+        obstacle && !solver.points().moves(obstacle->name))
       state.balance += resultant(solver, state.pairs[p].force);
 }
 

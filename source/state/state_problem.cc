@@ -2,6 +2,7 @@
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
 #include <snug/state/axis_checks.h>
+#include <snug/state/cell_checks.h>
 #include <snug/state/state_problem.h>
 #include <snug/state/subdomain_table.h>
 
@@ -12,58 +13,26 @@
 
 namespace snug::state {
 namespace {
-/// Cells below this quality are not solved (see Element::quality).
-const double least_quality = 0.02;
-
-/// Return the flaw of a cell at @p x with these numbers, or an empty text if there is none.
-template <int dim>
-std::string flaw(const std::string            &body,
-                 const dealii::Tensor<1, dim> &x,
-                 const double                  quality,
-                 const double                  jacobian,
-                 const double                  least_jacobian)
+/// Return which motions of reference points a load case holds, one flag per unknown.
+std::vector<bool> held_motions(const std::vector<PointLoad> &points)
 {
-  if (quality >= least_quality && jacobian >= least_jacobian)
-    return "";
-  std::ostringstream text;
-  text << "the mesh of body " << body << " is tangled near (" << x << "): ";
-  if (quality < least_quality)
-    text << "cell quality " << quality << " is below " << least_quality;
-  else
-    text << "scaled Jacobian " << jacobian
-         << " is below 'Least scaled Jacobian' = " << least_jacobian;
-  return text.str();
-}
-
-/// Check the reference mesh. Its flaws are input errors, because no design has moved it.
-template <int dim>
-void check_reference(const StateProblem<dim> &problem)
-{
-  const auto &mesh  = problem.mesh;
-  const auto &model = problem.model;
-  for (const auto &cell : mesh.cells())
-    {
-      std::vector<dealii::Tensor<1, dim>> X;
-      for (const unsigned int node : cell.nodes)
-        X.push_back(mesh.reference_positions()[node]);
-      const auto &element = problem.elements[cell.body];
-      const auto  found   = flaw(model.body_names[cell.body], X.front(), element.quality(X),
-                                 element.scaled_jacobian(X), model.least_scaled_jacobian);
-      if (!found.empty())
-        throw InputError(found + " in the initial mesh; check its 'Warp' and 'Curved faces'");
-    }
+  std::vector<bool> result;
+  for (const auto &point : points)
+    for (const auto &value : point.held)
+      result.push_back(value.has_value());
+  return result;
 }
 } // namespace
 
 template <int dim>
 StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
-                                const mesh::Tearing       &tearing,
+                                const mesh::Tearing       &the_tearing,
                                 const Model<dim>          &the_model,
                                 const Field               &positions,
                                 RunContext                &context)
   : mesh(mesh)
-  , tearing(tearing)
-  , model(the_model)
+  , tearing(with_points(the_tearing, mesh, the_model))
+  , model(with_lengths(the_model, mesh))
   , context(context)
   , face_load(mesh.degree(), mesh.idealization())
   , resultants(mesh, face_load, model.load_cases)
@@ -76,9 +45,11 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
     elements.emplace_back(mesh.degree(), mesh.idealization(), body.formulation);
   const RunContext::Timer timer(context, "setup");
   boxes = body_boxes(mesh);
+  for (const auto &point : model.points)
+    boxes.push_back({point.place, point.length});
   if (mesh.idealization().is_axisymmetric())
     check_radii(mesh, model.body_names);
-  throw_collectively(context.communicator(), [&]() { check_reference(*this); });
+  throw_collectively(context.communicator(), [&]() { check_cells(mesh, model, elements); });
   held = std::make_unique<supports::DirichletConstraints<dim>>(mesh, model.supports,
                                                                model.load_cases.size(), positions,
                                                                model.point_supports);
@@ -89,13 +60,15 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
     at.contact = std::make_unique<contact::Contact<dim>>(surface, model.pairs, mesh.degree(), x,
                                                          directions, at.position);
   });
-  ties = std::make_unique<Ties<dim>>(surface, model.ties, mesh.degree(), x, directions);
+  ties   = std::make_unique<Ties<dim>>(surface, model.ties, mesh.degree(), x, directions);
+  points = std::make_unique<ReferencePoints<dim>>(mesh, surface, model);
   systems.resize(tearing.subdomains.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
       const auto &subdomain = tearing.subdomains[s];
+      const auto  element   = std::min(subdomain.body, mesh.n_bodies() - 1); // any for a point
       assemblers.push_back(std::make_unique<Assembler<dim>>(mesh, subdomain, model,
-                                                            elements[subdomain.body], face_load,
+                                                            elements[element], face_load,
                                                             concentrated));
       systems[s].body        = subdomain.body;
       systems[s].K           = factor_cache.patterns.of(assemblers[s]->sparsity());
@@ -105,18 +78,22 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
   glue(positions);
 }
 
-/// Make one problem for each position. Load cases of equal position share it.
+/// Make one problem for each position. Load cases of equal position that hold the same motions of
+/// reference points share it.
 template <int dim>
 void StateProblem<dim>::make_positions()
 {
-  for (const auto &load_case : model.load_cases)
+  for (unsigned int c = 0; c < model.load_cases.size(); ++c)
     {
-      const auto found = std::find_if(problems.begin(), problems.end(), [&](const auto &at) {
-        return at->position == load_case.position;
+      const auto &load_case = model.load_cases[c];
+      const auto  found     = std::find_if(problems.begin(), problems.end(), [&](const auto &at) {
+        return at->position == load_case.position &&
+               held_motions(model.load_cases[at->first_case].points) ==
+                 held_motions(load_case.points);
       });
       problem_of_case.push_back(narrow<unsigned int>(found - problems.begin()));
       if (found == problems.end())
-        problems.push_back(std::make_unique<PositionProblem<dim>>(load_case.position));
+        problems.push_back(std::make_unique<PositionProblem<dim>>(load_case.position, c));
     }
 }
 
@@ -132,9 +109,8 @@ void StateProblem<dim>::for_each_position(
       }
     catch (const InputError &error)
       {
-        const auto first = std::find(problem_of_case.begin(), problem_of_case.end(), i);
-        const auto c     = narrow<unsigned int>(first - problem_of_case.begin());
-        throw InputError(error.text() + place_of(model, c), error.place(), error.wrong());
+        throw InputError(error.text() + place_of(model, problems[i]->first_case), error.place(),
+                         error.wrong());
       }
 }
 
@@ -148,7 +124,7 @@ void StateProblem<dim>::glue(const Field &x)
   for (const auto &at : problems)
     rows.push_back(rows_of(*at, x));
   const auto clusters = contact_clusters<dim>(surface.n_nodes(), rows);
-  const auto table    = subdomain_table(mesh, tearing, model.body_names);
+  const auto table    = subdomain_table(mesh, tearing, model);
   for (auto &system : systems)
     system.boundary.clear();
   for (unsigned int i = 0; i < problems.size(); ++i)
@@ -157,7 +133,7 @@ void StateProblem<dim>::glue(const Field &x)
       at.structure.reset(); // refers to the old gluing
       at.gluing =
         std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i],
-                                      at.contact->tangents(), clusters, largest_modulus(model));
+                                      at.contact->tangents(), clusters, model, at.first_case);
       at.structure        = std::make_unique<const feti::DualStructure>(at.gluing->layout(), table,
                                                                         model.feti, factor_cache);
       const auto &contact = *at.contact;
@@ -233,8 +209,8 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
             const auto X     = assemblers[s]->cell_field(i, positions);
             quality          = std::min(quality, element.quality(X));
             jacobian         = std::min(jacobian, element.scaled_jacobian(X));
-            const auto found = flaw(model.body_names[systems[s].body], X.front(), quality, jacobian,
-                                    model.least_scaled_jacobian);
+            const auto found = flaw_of_cell(model.body_names[systems[s].body], X.front(), quality,
+                                            jacobian, model.least_scaled_jacobian);
             if (!found.empty())
               throw TangledMesh(found + "; reduce the bounds of the shape");
           }
@@ -373,8 +349,11 @@ RowCoefficients<dim> StateProblem<dim>::rows_of(const PositionProblem<dim> &at,
   const auto on_surface = surface.gather(x);
   auto       contact    = at.contact->rows(on_surface);
   auto       tangents   = at.contact->tangent_rows(on_surface, contact);
-  return {std::move(contact), std::move(tangents), held->frames(x), springs.rows(x),
-          ties->rows(on_surface)};
+
+  RowCoefficients<dim> result{std::move(contact), std::move(tangents),    held->frames(x),
+                              springs.rows(x),    ties->rows(on_surface), points->rows()};
+  result.points = points->entries(on_surface, result, *at.contact);
+  return result;
 }
 
 template <int dim>

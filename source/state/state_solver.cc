@@ -95,8 +95,12 @@ qp::WarmStart StateSolver<dim>::scaled_start(const std::vector<ContactState<dim>
 {
   if (const auto &after = model().load_cases[load_case].after)
     {
+      // The rows of held motions are the last ones, and other motions may be held.
       const auto   &dual = states.at(*after).dual;
-      qp::WarmStart start{dual.lambda, dual.active};
+      const auto    n    = problem->of(load_case).gluing->layout().n_owned();
+      qp::WarmStart start{qp::MultiVector(n), dual.active};
+      std::copy_n(dual.lambda.column(0), std::min(n, dual.lambda.n_rows()), start.lambda.column(0));
+      start.active.resize(n, 1);
       // A slip that turns round would first slip the wrong way.
       qp::free_tangents(problem->of(load_case).cones, start.active);
       return start;
@@ -228,6 +232,8 @@ RowCoefficients<dim> StateSolver<dim>::row_derivatives(const Field       &positi
   if (contact_here.has_friction())
     result.tangents =
       contact_here.tangent_row_derivatives(x, v, contact_here.rows(x), result.contact);
+  if (!points().empty())
+    points().differentiate(x, v, rows(positions, load_case), contact_here, result);
   return result;
 }
 

@@ -2,14 +2,17 @@
 
 namespace snug::state {
 template <int dim>
-feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim>      &mesh,
-                                     const mesh::Tearing            &tearing,
-                                     const std::vector<std::string> &body_names)
+feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim> &mesh,
+                                     const mesh::Tearing       &tearing,
+                                     const Model<dim>          &model)
 {
   feti::SubdomainTable table;
   table.n_modes    = mesh.idealization().n_rigid_motions();
   table.first      = tearing.first_id;
-  table.body_names = body_names;
+  table.body_names = model.body_names;
+  for (const auto &point : model.points)
+    table.body_names.push_back(point.name);
+  table.n_rigid = tearing.n_points;
   table.body.assign(tearing.n_global, 0);
   for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
     table.body[tearing.first_id + s] = tearing.subdomains[s].body;
@@ -20,7 +23,7 @@ feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim>      &mesh,
 }
 
 template feti::SubdomainTable
-subdomain_table(const mesh::BodyMesh<2> &, const mesh::Tearing &, const std::vector<std::string> &);
+subdomain_table(const mesh::BodyMesh<2> &, const mesh::Tearing &, const Model<2> &);
 template feti::SubdomainTable
-subdomain_table(const mesh::BodyMesh<3> &, const mesh::Tearing &, const std::vector<std::string> &);
+subdomain_table(const mesh::BodyMesh<3> &, const mesh::Tearing &, const Model<3> &);
 } // namespace snug::state

@@ -14,6 +14,10 @@ struct SubdomainTable
   unsigned int              first   = 0; ///< global id of the first subdomain of this rank
   std::vector<unsigned int> body;        ///< body of each global subdomain
   std::vector<std::string>  body_names;
+  unsigned int              n_rigid = 0; ///< number of subdomains without stiffness, the last ones
+
+  /// Return whether a global subdomain has no stiffness (SubdomainSystem::is_rigid()).
+  bool is_rigid(unsigned int subdomain) const { return subdomain + n_rigid >= body.size(); }
 
   unsigned int n_kernel() const { return narrow<unsigned int>(body.size()) * n_modes; }
 

@@ -20,7 +20,7 @@ struct DualStructure
     , parameters(the_parameters)
     , cache(the_cache)
     , coarse(the_layout, table, the_parameters.coarse_ranks)
-    , gram(the_layout)
+    , gram(the_layout, table)
   {}
 
   /// Return whether soft modes are enabled and at least one subdomain may have some. Collective.

@@ -1,8 +1,7 @@
 #ifndef snug_feti_row_gram_h
 #define snug_feti_row_gram_h
 
-#include <snug/feti/factor_pool.h>
-#include <snug/feti/row_layout.h>
+#include <snug/feti/coarse_space.h>
 
 #include <memory>
 
@@ -11,7 +10,8 @@ namespace snug::feti {
 /// pairing.
 struct RowGramStructure
 {
-  explicit RowGramStructure(const RowLayout &layout);
+  /// Find the structure of the rows of @p layout for the subdomains of @p table.
+  RowGramStructure(const RowLayout &layout, const SubdomainTable &table);
 
   /// One group of rows. No row couples two groups.
   struct Group
@@ -26,7 +26,7 @@ struct RowGramStructure
   FactorPool    factors{MatrixKind::row_gram, Factorization::CHOLMOD, &orderings};
   /// of each owned row: (in the contact group, index in its group)
   std::vector<std::pair<bool, unsigned>> place;
-  /// gathered entries of each unknown (subdomain, dof)
+  /// gathered entries of each unknown (subdomain, dof), without those of rigid bodies (1/D = 0)
   std::vector<std::vector<unsigned int>> entries_of_unknown;
   std::vector<unsigned int>              row_of_entry;
 };
@@ -35,7 +35,7 @@ struct RowGramStructure
  * The Gram matrix @f$W_M = B_M D^{-1} B_M^T@f$ of the rows of B on the owned rows. It corrects the
  * preconditioner where rows are not orthonormal: stiffness scaling, and contact rows that share
  * nodes. Rows coupled to contact rows are factorized per face, the other rows once per
- * design. Rows outside M are replaced by rows of the identity.
+ * design. Rows outside M, and rows of rigid bodies alone, are replaced by rows of the identity.
  */
 class RowGram
 {

@@ -15,7 +15,8 @@ struct BEntry
 };
 
 /**
- * The stiffness of one floating subdomain at one geometry.
+ * The stiffness of one floating subdomain at one geometry. The motion of a rigid body is a
+ * subdomain whose unknowns are the amplitudes of its rigid modes: K = 0, and R is the identity.
  *
  * | symbol | meaning                                 | size            |
  * |--------|-----------------------------------------|-----------------|
@@ -36,6 +37,13 @@ struct SubdomainSystem
   std::vector<unsigned int> boundary;
 
   unsigned int n_dofs() const { return K.n_rows(); }
+
+  /// Return whether K = 0, which has K^+ = 0.
+  bool is_rigid() const { return K.columns().empty(); }
+
+  /// Return 1 / K_ii [length/force]; 0 for K = 0, whose copies have no weight in the
+  /// preconditioner.
+  double compliance(unsigned int dof) const { return is_rigid() ? 0. : 1. / K.diagonal(dof); }
 };
 
 /// B of the subdomains of this rank: gluing, support and contact rows, n_rows x n each.

@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace snug::mesh {
-/// One subdomain of this rank.
+/// One subdomain of this rank. A reference point has a subdomain without cells and nodes.
 struct Subdomain
 {
   unsigned int              body;
@@ -21,6 +21,7 @@ struct Tearing
   std::vector<Subdomain>    subdomains; ///< of this rank
   unsigned int              first_id = 0;
   unsigned int              n_global = 0;
+  unsigned int              n_points = 0;     ///< of n_global: of reference points, the last ones
   std::vector<unsigned int> first_id_of_rank; ///< n_ranks + 1 entries
 };
 

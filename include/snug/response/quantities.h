@@ -82,6 +82,15 @@ std::unique_ptr<Response<dim>> reaction(const ResponseParameters &parameters);
 template <int dim>
 std::unique_ptr<Response<dim>> reaction_moment(const ResponseParameters &parameters);
 
+/// Return a component of the translation [length] or rotation [rad] of a reference point.
+template <int dim>
+std::unique_ptr<Response<dim>> point_motion(const ResponseParameters &parameters, bool is_rotation);
+
+/// Return a component of the force [force] or of the moment about the point [force length] of the
+/// supports of a reference point.
+template <int dim>
+std::unique_ptr<Response<dim>> point_reaction(const ResponseParameters &parameters, bool is_moment);
+
 /**
  * Return the response J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over one
  * body or all bodies: the p-norm of the von Mises stress, divided by the p-norm of 1. J grows with

@@ -15,6 +15,7 @@
 #include <snug/response/response_parameters.h>
 #include <snug/scene/load_parameters.h>
 #include <snug/scene/output_parameters.h>
+#include <snug/scene/reference_point.h>
 #include <snug/sensitivity/gradient_parameters.h>
 #include <snug/shape/shape_parameters.h>
 
@@ -98,6 +99,7 @@ struct Scene
   std::vector<NamedMaterial>               materials;
   std::vector<Body>                        bodies;
   std::vector<contact::ObstacleParameters> obstacles;
+  std::vector<ReferencePoint>              points;
   std::vector<double>                      gravity; ///< [length / time^2]; empty: none
   /// empty: one load case, with the loads of the bodies alone
   std::vector<LoadCaseParameters> load_cases;

@@ -11,7 +11,8 @@
 namespace snug::state {
 /**
  * This class assembles one subdomain. The subdomain has dim unknowns per node of Subdomain::nodes.
- * Cells with hanging nodes act on the masters, K_e -> T' K_e T.
+ * Cells with hanging nodes act on the masters, K_e -> T' K_e T. The subdomain of a reference point
+ * has its motion as unknowns (ReferencePoints), K = 0, and R = I.
  */
 template <int dim>
 class Assembler
@@ -28,7 +29,13 @@ public:
             const elasticity::FaceLoad<dim> &face_load,
             const ConcentratedLoads<dim>    &concentrated);
 
-  unsigned int n_dofs() const { return dim * subdomain.nodes.size(); }
+  unsigned int n_dofs() const
+  {
+    return is_point() ? mesh.idealization().n_rigid_motions() : dim * subdomain.nodes.size();
+  }
+
+  /// Return whether the subdomain is that of a reference point.
+  bool is_point() const { return subdomain.cells.empty(); }
 
   /// Return the sparsity pattern of K.
   feti::CsrMatrix sparsity() const;
@@ -109,6 +116,8 @@ public:
   const elasticity::Element<dim> &element() const { return the_element; }
 
 private:
+  std::vector<double> point_load(unsigned int load_case) const;
+
   void build_pattern();
   bool has_body_force(unsigned int load_case) const;
   /// Return the body force at the Gauss points of cell i, including gravity.

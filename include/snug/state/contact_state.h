@@ -125,6 +125,15 @@ struct Reaction
   dealii::Tensor<1, 3>   moment;
 };
 
+/// Motion of a reference point, and force and moment of its supports about the point.
+template <int dim>
+struct PointState
+{
+  std::string            name;
+  dealii::Tensor<1, dim> place, displacement, force;
+  dealii::Tensor<1, 3>   rotation, moment; ///< rotation [rad]
+};
+
 /// Sums over the contact rows of one pair.
 template <int dim>
 struct PairState
@@ -220,8 +229,9 @@ struct ContactState
   std::vector<PairState<dim>> pairs;
   /// at the nodes of Ties::paired(): force, mean and pressure are negative in tension, and traction
   /// is the shear traction; no gap, slip and flags
-  std::vector<ContactPoint>  tied;
-  std::vector<TieState<dim>> ties; ///< per tied pair
+  std::vector<ContactPoint>    tied;
+  std::vector<TieState<dim>>   ties;   ///< per tied pair
+  std::vector<PointState<dim>> points; ///< per reference point
   /// reactions of the supports on the bodies, about the means of their nodes; for sections of
   /// revolution, the force along the axis
   std::vector<Reaction<dim>>   reactions;

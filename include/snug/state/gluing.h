@@ -18,6 +18,9 @@ namespace snug::state {
  * row has the compliance D of the body near the node, so that the force follows the slip
  * continuously where the slip turns back. The force is at its limit once the slip exceeds D times
  * the limit. A held row along which no displacement is prescribed has no dual row.
+ *
+ * Entries on the motions of reference points (ReferencePoints) do not count in nr. A motion that
+ * the load case holds has one row of length one.
  */
 template <int dim>
 class Gluing
@@ -28,8 +31,8 @@ public:
    * @p reference contains at the reference geometry (equal on all ranks), with the places
    * @p tangents of the tangential rows. The rank that owns a row
    * follows from the @p clusters of all positions of the bodies (contact_clusters()), so that the
-   * rows of gluing and supports are the same in all positions. @p modulus is the maximum Young's
-   * modulus of the bodies [force / length^2]. @p held must outlive this object. Collective.
+   * rows of gluing and supports are the same in all positions. Motions of the reference points of
+   * @p model are held as in @p load_case. References must outlive this object. Collective.
    */
   Gluing(const mesh::BodyMesh<dim>                 &mesh,
          const mesh::Tearing                       &tearing,
@@ -38,7 +41,8 @@ public:
          const RowCoefficients<dim>                &reference,
          const std::vector<contact::Tangent>       &tangents,
          const std::vector<unsigned int>           &clusters,
-         double                                     modulus);
+         const Model<dim>                          &model,
+         unsigned int                               load_case);
 
   const feti::RowLayout &layout() const { return *rows.layout; }
 
@@ -84,8 +88,8 @@ public:
   /// row, and their gaps must not be negative.
   std::vector<unsigned int> vanished_rows() const;
 
-  /// Return the values of the owned contact rows on all ranks, per column: normal rows, then
-  /// tangential rows, then rows of ties. Collective.
+  /// Return the values of the owned contact rows on all ranks, per column, in the order of
+  /// RowCoefficients::row(). Collective.
   std::vector<std::vector<double>> gather_contact(const qp::MultiVector &owned) const;
 
   /// Forces of the rows of gather_contact().
@@ -93,6 +97,7 @@ public:
   {
     std::vector<double> contact; ///< of normal rows, then tangential rows
     std::vector<double> ties;
+    std::vector<double> all; ///< by RowCoefficients::row()
   };
   /// Return lambda_i / nr_i of the contact rows and of ties on all ranks, per column of
   /// @p multipliers: the forces of the rows, or their derivatives. Rows without a multiplier have
@@ -114,6 +119,10 @@ public:
   std::vector<std::vector<double>> reactions(const qp::MultiVector      &lambda,
                                              const RowCoefficients<dim> &rows) const;
 
+  /// Return the forces of the supports on the motions of the reference points: force and moment in
+  /// the order of the unknowns, 0 where nothing is held [force, force length]. Collective.
+  std::vector<std::vector<double>> point_reactions(const double *owned_lambda) const;
+
   /// @name Springs, in the order of RowCoefficients::springs
   /// @{
   /// Return D = 1 / (nr^2 kappa) of the owned rows of springs and of held tangential rows, zero for
@@ -126,8 +135,8 @@ public:
   std::vector<double> spring_forces(const double *owned_lambda) const;
   /// @}
 
-  /// Return the contact row of each owned row, counting normal rows and then tangential rows, or
-  /// the number of all contact rows for the other rows.
+  /// Return the index of each owned row in RowCoefficients::row(), or the number of these rows for
+  /// the other rows.
   const std::vector<unsigned int> &contact_of_row() const { return owned_contact; }
 
 private:
@@ -139,8 +148,9 @@ private:
                         unsigned int                load_case) const;
 
   const supports::DirichletConstraints<dim> &held;
+  const Model<dim>                          &model;
   GluingRows<dim>                            rows;
-  const unsigned int                         n_tangents;
+  const unsigned int                         n_tangents, n_ties;
   std::vector<unsigned int>                  owned_contact;
 };
 } // namespace snug::state

@@ -8,10 +8,18 @@
 #include <snug/state/springs.h>
 #include <snug/supports/dirichlet_constraints.h>
 
+#include <array>
 #include <map>
 #include <memory>
 
 namespace snug::state {
+/// Entries of a row on the motion of a reference point, or their derivatives, see ReferencePoints.
+struct PointEntries
+{
+  unsigned int          row, point; ///< RowCoefficients::row()
+  std::array<double, 6> values;     ///< of the unknowns of the motion
+};
+
 /// Data of the rows of B at a geometry, or the derivative of these data, where empty frames are
 /// zero.
 template <int dim>
@@ -22,17 +30,24 @@ struct RowCoefficients
   std::vector<supports::ConstraintFrame<dim>> held;     ///< per held node
   std::vector<SpringRow<dim>>                 springs = {};
   std::vector<contact::Row<dim>>              ties    = {}; ///< rows of tied pairs
+  std::vector<contact::Row<dim>> followers = {}; ///< rows of faces that follow reference points
+  std::vector<PointEntries>      points    = {}; ///< ascending by row
 
-  /// @name Normal rows, then tangential rows, then rows of ties
+  /// @name Normal rows, then tangential rows, then rows of ties, then rows of followers
   /// @{
   unsigned int n_rows() const
   {
-    return static_cast<unsigned int>(contact.size() + tangents.size() + ties.size());
+    return static_cast<unsigned int>(contact.size() + tangents.size() + ties.size() +
+                                     followers.size());
   }
   const contact::Row<dim> &row(unsigned int i) const
   {
-    const auto n = contact.size(), n_bounded = n + tangents.size();
-    return i < n ? contact[i] : i < n_bounded ? tangents[i - n] : ties[i - n_bounded];
+    for (const auto *rows : {&contact, &tangents, &ties})
+      if (i < rows->size())
+        return (*rows)[i];
+      else
+        i -= static_cast<unsigned int>(rows->size());
+    return followers[i];
   }
   /// @}
 };
@@ -60,7 +75,9 @@ public:
     constant, ///< no quantity
     contact,  ///< coefficient `item` of RowCoefficients::row(`index`), also of ties
     spring,   ///< coefficient `item` of RowCoefficients::springs[`index`]
-    held      ///< direction `item` of held node `index`
+    held,     ///< direction `item` of held node `index`
+    /// entry `item` of RowCoefficients::points[`index`]; of a row: its support, see held_motions
+    point
   };
 
   struct Entry
@@ -79,6 +96,12 @@ public:
     double       factor; ///< factor of the right-hand side
   };
 
+  /// An unknown of the motion of a reference point that a load case holds.
+  struct HeldMotion
+  {
+    unsigned int point, unknown;
+  };
+
   /// Build the rows; see Gluing. Collective.
   GluingRows(const mesh::BodyMesh<dim>                 &mesh,
              const mesh::Tearing                       &tearing,
@@ -87,7 +110,8 @@ public:
              const RowCoefficients<dim>                &reference,
              const std::vector<contact::Tangent>       &tangents,
              const std::vector<unsigned int>           &clusters,
-             double                                     modulus);
+             const Model<dim>                          &model,
+             unsigned int                               load_case);
 
   /// Return the part of a coefficient at a surface node that remains after projecting it off the
   /// directions held there.
@@ -108,7 +132,8 @@ public:
   /// Stiffness of the bodies [force / length] at the tangential rows that are held
   /// (contact::Tangent) and displaced, by RowCoefficients::row().
   std::map<unsigned int, double> held_tangents;
-  std::vector<unsigned int>      copies; ///< per surface node
+  std::vector<HeldMotion>        held_motions; ///< of all ranks
+  std::vector<unsigned int>      copies;       ///< per surface node
   /// held node of each surface node, or held.n_nodes()
   std::vector<unsigned int> held_of_surface;
   unsigned int              n_global  = 0;
@@ -137,10 +162,15 @@ private:
   void   number_contact_rows(const Copies                               &nodes,
                              const RowCoefficients<dim>                 &reference,
                              const std::map<unsigned int, unsigned int> &rank_of_node,
+                             unsigned int                                first_point,
                              std::vector<Message>                       &messages);
   void   number_spring_rows(const Copies               &nodes,
                             const RowCoefficients<dim> &reference,
                             std::vector<Message>       &messages);
+  void   number_held_motions(const mesh::Tearing  &tearing,
+                             const Model<dim>     &model,
+                             unsigned int          load_case,
+                             std::vector<Message> &messages);
   void   send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
   const mesh::BodyMesh<dim>                 &mesh;

@@ -95,6 +95,25 @@ struct BodyLoads
   }
 };
 
+/// Load and support of the motion of a reference point in one load case, in the order of its
+/// unknowns: U, theta (U_y alone in sections of revolution).
+struct PointLoad
+{
+  std::vector<double>                wrench; ///< force, moment about the point; empty: none
+  std::vector<std::optional<double>> held;   ///< [length, rad]; empty: nothing is held
+};
+
+/// A point with a rigid motion that faces and obstacles follow, see ReferencePoints.
+template <int dim>
+struct ReferencePoint
+{
+  std::string                    name;
+  dealii::Tensor<1, dim>         place; ///< p; does not move with the design [length]
+  std::vector<contact::Boundary> faces;
+  std::vector<std::string>       obstacles;
+  double                         length = 1.; ///< L; StateProblem sets it
+};
+
 template <int dim>
 struct LoadCase
 {
@@ -102,7 +121,8 @@ struct LoadCase
   std::vector<BodyLoads<dim>> bodies;        ///< one per body, in the frames of the bodies
   contact::Position<dim>      position = {}; ///< of the bodies and obstacles
   /// earlier load case of equal position whose slips this load case continues, as a load step
-  std::optional<unsigned int> after = {};
+  std::optional<unsigned int> after  = {};
+  std::vector<PointLoad>      points = {}; ///< of the reference points
 };
 
 /// Definition of a state problem, in indices and not in names.
@@ -116,7 +136,8 @@ struct Model
   std::vector<supports::PointSupport<dim>> point_supports;
   std::vector<supports::Spring<dim>>       springs;
   std::vector<contact::Pair>               pairs;
-  std::vector<contact::Pair>               ties = {}; ///< tied pairs
+  std::vector<contact::Pair>               ties   = {}; ///< tied pairs
+  std::vector<ReferencePoint<dim>>         points = {};
   /// minimum of a cell; meshes and designs with a cell below it are rejected
   double               least_scaled_jacobian = 0.;
   feti::FetiParameters feti;
@@ -134,13 +155,18 @@ double largest_modulus(const Model<dim> &model)
   return result;
 }
 
-/// Return the boundaries of contact pairs and tied pairs, ascending.
+/// Return the boundaries of contact pairs, tied pairs and reference points, ascending.
 template <int dim>
 std::vector<contact::Boundary> glued_boundaries(const Model<dim> &model)
 {
   auto pairs = model.pairs;
   pairs.insert(pairs.end(), model.ties.begin(), model.ties.end());
-  return contact::boundaries_of(pairs);
+  auto result = contact::boundaries_of(pairs);
+  for (const auto &point : model.points)
+    result.insert(result.end(), point.faces.begin(), point.faces.end());
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
 }
 
 /// Return " in load case 'NAME'", for messages about the position of a load case. The text is empty

@@ -4,14 +4,16 @@
 #include <snug/contact/contact.h>
 #include <snug/feti/loaded_problem.h>
 #include <snug/state/gluing.h>
+#include <snug/state/reference_points.h>
 #include <snug/state/ties.h>
 
 #include <memory>
 
 namespace snug::state {
 /**
- * This struct is the part of a StateProblem that belongs to one position of the bodies: contact,
- * the rows of B, and the dual problem on these rows. Load cases of equal position share it.
+ * This struct is the part of a StateProblem that belongs to one position of the bodies and to the
+ * motions of reference points that are held: contact, the rows of B, and the dual problem on these
+ * rows. Load cases with both in common share it.
  *
  * The stiffness of a body and its rigid modes are known in the frame of the body, so the position
  * does not change them. All positions share the stiffness, its factorizations and the soft modes.
@@ -19,10 +21,12 @@ namespace snug::state {
 template <int dim>
 struct PositionProblem
 {
-  explicit PositionProblem(contact::Position<dim> the_position) : position(std::move(the_position))
+  PositionProblem(contact::Position<dim> the_position, unsigned int the_first_case)
+    : position(std::move(the_position)), first_case(the_first_case)
   {}
 
   const contact::Position<dim>               position;
+  const unsigned int                         first_case; ///< first load case of the problem
   std::unique_ptr<contact::Contact<dim>>     contact;
   std::unique_ptr<Gluing<dim>>               gluing;
   feti::ContactPairs                         pairs_of_rows;

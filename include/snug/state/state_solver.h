@@ -103,6 +103,7 @@ public:
   const ConcentratedLoads<dim> &concentrated() const { return problem->concentrated; }
   const Springs<dim>           &springs() const { return problem->springs; }
   const Ties<dim>              &ties() const { return *problem->ties; }
+  const ReferencePoints<dim>   &points() const { return *problem->points; }
   /// Return f of a load case at @p positions. Collective.
   feti::PrimalVectors              loads(const Field &positions, unsigned int load_case) const;
   const elasticity::FaceLoad<dim> &face_load() const { return problem->face_load; }

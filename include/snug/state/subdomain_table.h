@@ -3,16 +3,16 @@
 
 #include <snug/feti/coarse_space.h>
 #include <snug/mesh/tearing.h>
+#include <snug/state/model.h>
 
-#include <string>
-#include <vector>
 
 namespace snug::state {
-/// Return the bodies of all subdomains, on all ranks. Collective.
+/// Return the bodies of all subdomains, on all ranks: those of the model, then its reference
+/// points. Collective.
 template <int dim>
-feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim>      &mesh,
-                                     const mesh::Tearing            &tearing,
-                                     const std::vector<std::string> &body_names);
+feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim> &mesh,
+                                     const mesh::Tearing       &tearing,
+                                     const Model<dim>          &model);
 } // namespace snug::state
 
 #endif
