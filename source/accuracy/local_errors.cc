@@ -127,6 +127,9 @@ void LocalErrors<dim>::find_held()
               v[support.component] = 1.;
             hold(v / v.norm());
           }
+      if (solver.points().moves(face.body, face.boundary))
+        for (unsigned int c = 0; c < dim; ++c)
+          hold(dealii::Point<dim>::unit_vector(c));
       bool on_axis = mesh.idealization().is_axisymmetric();
       for (const unsigned int node : face.nodes)
         on_axis = on_axis && fields.local_positions[node][0] == 0.;

@@ -66,9 +66,10 @@ template <int dim>
 bool SurfaceLayer<dim>::is_supported(const Face &face) const
 {
   const auto &supports = solver.model().supports;
-  return std::any_of(supports.begin(), supports.end(), [&](const auto &support) {
-    return support.body == face.body && support.boundary == face.boundary;
-  });
+  return solver.points().moves(face.body, face.boundary) ||
+         std::any_of(supports.begin(), supports.end(), [&](const auto &support) {
+           return support.body == face.body && support.boundary == face.boundary;
+         });
 }
 
 /// Return the local values. Total forces, contact forces and support forces, which are given by

@@ -132,10 +132,13 @@ template <int dim>
 std::vector<Advice> collect(const AdviceInput<dim> &input)
 {
   std::vector<Advice> advice;
-  // A section of revolution keeps all planes of symmetry except those across the axis.
+  // A section of revolution keeps all planes of symmetry except those across the axis. The loads of
+  // reference points are not compared.
+  const bool compares = input.model().points.empty();
   if constexpr (dim == 3)
-    advice = revolution(input);
-  if (advice.empty())
+    if (compares)
+      advice = revolution(input);
+  if (advice.empty() && compares)
     advice = symmetry_planes(input);
   for (const auto &more : {unstressed_regions(input), needless_friction(input)})
     advice.insert(advice.end(), more.begin(), more.end());

@@ -254,6 +254,11 @@ void Conditions<dim>::add_loads(const Place<dim>  &at,
 template <int dim>
 void Conditions<dim>::add_contact(const Place<dim> &at, PointData<dim> &data) const
 {
+  const auto is_tied = [&](const auto &tie) {
+    return contact::is_on(at, tie.slave) || contact::is_on(at, tie.master);
+  };
+  const auto  &ties   = input.model().ties;
+  const double n_ties = static_cast<double>(std::count_if(ties.begin(), ties.end(), is_tied));
   double n_pairs = 0., n_obstacles = 0., gap = 0., distance = 0.;
   Vector normal, motion;
   for (unsigned int p = 0; p < gaps.size(); ++p)
@@ -275,7 +280,7 @@ void Conditions<dim>::add_contact(const Place<dim> &at, PointData<dim> &data) co
           normal += found->gradient;
         }
     }
-  for (const double s : {n_pairs, n_obstacles, gap, distance})
+  for (const double s : {n_pairs, n_ties, n_obstacles, gap, distance})
     data.push_back(scalar_datum<dim>(s));
   for (const auto &v : {normal, motion})
     data.push_back(vector_datum(v));

@@ -24,7 +24,7 @@ std::vector<std::string> held_face_notes(const scene::Scene &scene)
   using Names = std::vector<std::string>;
   std::map<std::pair<std::string, std::string>, Names> prescribing; // face, component -> load cases
   for (const auto &load_case : scene.load_cases)
-    for (const auto &[face, motion] : load_case.loads.displacements)
+    for (const auto &[face, motion] : loads_on_faces(scene, load_case.loads).displacements)
       prescribing[{face, scene::split_displacement(motion).first}].push_back(load_case.name);
   std::map<std::string, std::pair<Names, Names>> faces; // held and prescribing load cases
   for (const auto &[where, cases] : prescribing)

@@ -158,6 +158,10 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
         << stress << " at " << vector_text(tie.tension_place, extent) << length
         << ", largest shear traction " << tie.max_shear << stress << " at "
         << vector_text(tie.shear_place, extent) << length << '\n';
+  for (const auto &point : state.points)
+    out << "  reference point " << point.name << ": displacement "
+        << vector_text(point.displacement, state.displacement_peak.size) << length << ", rotation "
+        << moment_text<dim>(point.rotation, state.displacement_peak.size / extent) << " rad\n";
   for (const auto &reaction : state.reactions)
     out << "  support " << reaction.name << ": force " << vector_text(reaction.force, forces)
         << force << ", moment " << moment_text<dim>(reaction.moment, moments) << moment << " about "

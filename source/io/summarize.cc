@@ -91,6 +91,17 @@ Summary::State summary_part(const state::TieState<dim> &tie)
 }
 
 template <int dim>
+Summary::State summary_part(const state::PointState<dim> &point)
+{
+  return {{"name", point.name},
+          {"place", numbers(point.place)},
+          {"displacement", numbers(point.displacement)},
+          {"rotation", numbers(point.rotation)},
+          {"force", numbers(point.force)},
+          {"moment", numbers(point.moment)}};
+}
+
+template <int dim>
 Summary::State summary_part(const state::StressPeak<dim> &peak)
 {
   Summary::State yield;
@@ -204,6 +215,7 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"method", state.dual.method},
           {"pairs", array_of(state.pairs)},
           {"ties", array_of(state.ties)},
+          {"points", array_of(state.points)},
           {"reactions", array_of(state.reactions)},
           {"load", numbers(state.load)},
           {"balance", numbers(state.balance)},

@@ -253,6 +253,11 @@ void add_numbers(const Json &state, std::vector<std::string> &names, std::vector
       for (const char *key : {"max_tension", "max_shear"})
         add(std::string("tie_") + key + of, tie.at(key));
     }
+  for (const auto &point : state.at("points"))
+    for (const char *key : {"displacement", "rotation", "force", "moment"})
+      for (std::size_t d = 0; d < point.at(key).size(); ++d)
+        add(std::string("point_") + key + "_" + "xyz"[d] + " " + point.at("name").get<std::string>(),
+            point.at(key)[d]);
   for (const auto &[name, value] : state.at("responses").items())
     add(name, value);
 }

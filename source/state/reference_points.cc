@@ -84,6 +84,15 @@ bool ReferencePoints<dim>::moves(const std::string &obstacle) const
 }
 
 template <int dim>
+bool ReferencePoints<dim>::moves(const unsigned int body, const unsigned int boundary) const
+{
+  return std::any_of(model.points.begin(), model.points.end(), [&](const auto &point) {
+    return std::find(point.faces.begin(), point.faces.end(), std::make_pair(body, boundary)) !=
+           point.faces.end();
+  });
+}
+
+template <int dim>
 std::vector<contact::Row<dim>> ReferencePoints<dim>::rows() const
 {
   std::vector<contact::Row<dim>> result;

@@ -126,11 +126,22 @@ void GluingRows<dim>::scale_rows(const RowCoefficients<dim>          &reference,
 {
   // A row whose projection is round-off of a unit normal has vanished.
   const double vanishing = 1e-12;
+  // Contacts whose nodes all follow reference points, at the edge of a rigid face, would depend on
+  // the rows of these nodes.
+  std::vector<bool> follows(surface.n_nodes(), false);
+  for (const auto &row : reference.followers)
+    follows[row.coefficients.front().first] = true;
+  const auto is_rigid = [&](const contact::Row<dim> &row) {
+    return std::all_of(row.coefficients.begin(), row.coefficients.end(),
+                       [&](const auto &c) { return follows[c.first]; });
+  };
   for (unsigned int i = 0; i < reference.n_rows(); ++i)
     {
       double square = 0.;
       for (const auto &c : reference.row(i).coefficients)
         square += projected(c.first, c.second, reference.held).norm_square() / copies[c.first];
+      if (i < reference.contact.size() && is_rigid(reference.row(i)))
+        square = 0.;
       scales.push_back(square < vanishing ? 0. : std::sqrt(square));
     }
   for (unsigned int i = 0; i < tangents.size(); ++i)
@@ -138,7 +149,7 @@ void GluingRows<dim>::scale_rows(const RowCoefficients<dim>          &reference,
       const unsigned int row = narrow<unsigned int>(reference.contact.size()) + i;
       const bool counts = tangents[i].is_held ? is_displaced(row, reference) : scales[row] > 0.;
       scales[row]       = counts ? scales[tangents[i].row] : 0.;
-      if (tangents[i].is_held && counts)
+      if (tangents[i].is_held && scales[row] > 0.)
         held_tangents[row] =
           stiffness_at(reference.tangents[i].coefficients.front().first, modulus);
     }

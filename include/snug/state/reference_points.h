@@ -30,8 +30,9 @@ public:
 
   bool empty() const { return model.points.empty(); }
 
-  /// Return whether an obstacle follows a point.
+  /// Return whether an obstacle or a boundary of a body follows a point.
   bool moves(const std::string &obstacle) const;
+  bool moves(unsigned int body, unsigned int boundary) const;
 
   /// Return the rows of the faces, e_c at each node, without their entries on the motions.
   std::vector<contact::Row<dim>> rows() const;
