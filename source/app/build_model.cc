@@ -147,6 +147,10 @@ std::vector<contact::Pair> build_pairs(const scene::Scene &scene, const mesh::Bo
     double      least = std::numeric_limits<double>::max();
     for (const auto &material : materials)
       least = std::min(least, material.youngs_modulus);
+    for (const auto &point : scene.points)
+      for (const auto &face : point.faces)
+        if (side.has(find_face(scene, mesh, face)))
+          return std::numeric_limits<double>::infinity();
     return least;
   };
   for (const auto &entry : scene.contact.pairs)

@@ -216,8 +216,8 @@ void Entries::reject_unknown(const Statement &statement) const
       const auto section = suggestion(statement.section, section_names);
       throw InputError("unknown subsection '" + quotable(statement.section) + "'" +
                          did_you_mean(section) +
-                         " (bodies, materials and shapes need a name in "
-                         "'Bodies', 'Materials' or 'Shapes')",
+                         " (bodies, materials, shapes and the like need a name in 'Bodies', "
+                         "'Materials', 'Shapes' and the like)",
                        statement.origin, {statement.section, "", "", section});
     }
   if (statement.name.empty())

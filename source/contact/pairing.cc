@@ -5,6 +5,7 @@
 #include <snug/faces/nodal_normals.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace snug::contact {
@@ -131,6 +132,13 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
         exchange();
       bool may_exchange =
         pair.parameters.slave == Slave::finer && !pair.obstacle && known == of.parts.end();
+      if (may_exchange && (std::isinf(pair.modulus_ratio) || pair.modulus_ratio == 0.))
+        {
+          // The rows of a rigid slave could depend on each other, as a coarse master has fewer nodes.
+          if (std::isinf(pair.modulus_ratio))
+            exchange();
+          may_exchange = false;
+        }
       chosen.push_back(pair);
       const auto geometry_of_pair = [&]() {
         chosen.back() = pair;

@@ -229,7 +229,13 @@ void check_pairs(const Scene &scene, const Origins &origins, const std::set<std:
   };
   TextPairs pairs;
   for (const auto &pair : scene.contact.pairs)
-    pairs.emplace_back(pair.slave, pair.master);
+    {
+      pairs.emplace_back(pair.slave, pair.master);
+      SectionCheck(pair.section(), origins, scene.dimension)
+        .require(pair.parameters.slave != contact::Slave::first || !follows(pair.slave),
+                 "Slave", to_text(pair.parameters.slave),
+                 "must be finer, because '" + pair.slave + "' follows a reference point");
+    }
   for (const auto &[slave, master] : pairs)
     SectionCheck("Contact", origins, scene.dimension)
       .require(!follows(slave) || !(follows(master) || is_fixed(master)), "Pairs", to_text(pairs),

@@ -165,7 +165,8 @@ struct Pair
   std::string                       slave_name = {}, master_name = {};
   PairParameters                    parameters = {};
   std::optional<ObstacleParameters> obstacle   = {};
-  /// Young's modulus of the softest material of the slave's body over that of the master's body
+  /// Young's modulus of the softest material of the slave's body over that of the master's body;
+  /// infinity or 0 where the slave or the master is a rigid face
   double modulus_ratio = 1.;
 
   /// Return "slave: master".

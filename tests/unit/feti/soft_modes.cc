@@ -54,7 +54,7 @@ protected:
           values.push_back(1. / systems[s].K.diagonal(entry.dof));
         }
     const auto                   entries = layout.gather_entries(2, values);
-    const feti::RowGramStructure structure(layout);
+    const feti::RowGramStructure structure(layout, problem->linearization().table());
     const feti::RowGram          gram(structure, entries, 2);
     unsigned int                 mine = systems.size();
     MPI_Scan(&mine, &first, 1, MPI_UNSIGNED, MPI_SUM, MPI_COMM_WORLD);

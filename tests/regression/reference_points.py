@@ -1,0 +1,205 @@
+#!/usr/bin/python3
+"""Reference points against prescribed displacements, turned frames and differences:
+reference_points.py SNUG MPIEXEC."""
+
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "contrib/python/tests"))
+from test_snug import snug  # noqa: E402, begins again with Debian's Python if need be
+
+TIGHT = {"Solver/Relative tolerance": 1e-11}
+
+
+def names(dim):
+    return ["x", "y", "z", "rx", "ry", "rz"] if dim == 3 else ["x", "y", "rz"]
+
+
+def quantities(point, dim, *kinds):
+    """Return subsections of responses: the components of quantities of a point."""
+    result = {}
+    for kind in kinds:
+        turns = kind in ("rotation", "reaction moment")
+        for c in ("xyz" if dim == 3 else "z" if turns else "xy"):
+            result[f"Response {kind} {c}"] = {"Quantity": kind, "Reference point": point,
+                                              "Component": c}
+    return result
+
+
+def with_responses(scene, responses):
+    return {**scene, **responses, "Responses": [name[len("Response "):] for name in responses]}
+
+
+def punch(dim, force=None, held=None, **point):
+    """Return a block on a base, with friction, whose top follows a point beside its middle."""
+    corner, size = [.25, .2][:dim - 1] + [1.], [.5, .6][:dim - 1] + [.4]
+    scene = {"Dimension": dim, "Bodies": ["block", "base"], "Reference points": ["tool"],
+             "Body block": {"Box corner": corner, "Box size": size, "Box cells": [3] * dim,
+                            "Young's modulus": 1000},
+             "Body base": {"Box cells": [4, 5, 3][:dim - 1] + [3], "Young's modulus": 1000,
+                           "Supports": "bottom: " + "xyz"[:dim]},
+             "Contact": {"Pairs": "block.bottom: base.top", "Friction": "Coulomb",
+                         "Friction coefficient": "0.5"},
+             "Reference point tool": {"Point": [.45, .4, 1.5] if dim == 3 else [.45, 1.5],
+                                      "Faces": ["block.top"], **point}}
+    if force is not None:
+        scene["Reference point tool"].update(Force=force[:dim], Moment=force[dim:])
+    if held is not None:
+        scene["Reference point tool"]["Displacement"] = [
+            f"{name} = {value!r}" for name, value in zip(names(dim), held)]
+    return scene
+
+
+FORCE = {2: [1., -20., .6], 3: [1., .5, -20., .4, -.6, .1]}
+
+
+def evaluate(scene, ranks=1, design=None, gradients=False, **entries):
+    with tempfile.TemporaryDirectory() as folder, snug.Model.from_dict(
+            scene, set={**TIGHT, "Output directory": folder, **entries}, ranks=ranks) as model:
+        return model.evaluate(design, gradients=gradients)
+
+
+def numbers(result, kinds):
+    return [value for name, value in result.values.items() if name.rsplit(" ", 1)[0] in kinds]
+
+
+class ReferencePoints(unittest.TestCase):
+    def assert_close(self, found, expected, tolerance):
+        largest = max(abs(value) for value in expected)
+        for a, b in zip(found, expected, strict=True):
+            self.assertAlmostEqual(a, b, delta=tolerance * largest)
+
+    def test_force_and_displacement(self):
+        """The motion under a force needs this force as a reaction, from both ways of holding."""
+        for dim in (2, 3):
+            for degree in (1, 2):
+                with self.subTest(dim=dim, degree=degree):
+                    entries = {"Element degree": degree}
+                    pushed = evaluate(with_responses(punch(dim, FORCE[dim]), quantities(
+                        "tool", dim, "displacement", "rotation")), **entries)
+                    motion = numbers(pushed, ("displacement", "rotation"))
+                    held = with_responses(punch(dim, held=motion), quantities(
+                        "tool", dim, "reaction", "reaction moment"))
+                    reaction = numbers(evaluate(held, **entries), ("reaction", "reaction moment"))
+                    self.assert_close(reaction, FORCE[dim], 1e-8)
+
+    def test_a_face_with_the_same_displacement(self):
+        """Formulas of the rigid motion on the face, without a reference point, give its state."""
+        motion = [.002, -.001, -.02, .004, -.006, .003]
+        scene = punch(3, held=motion)
+        expected = evaluate(scene)["potential energy"]
+        (ux, uy, uz, rx, ry, rz), (px, py, pz) = motion, scene["Reference point tool"]["Point"]
+        x, y, z = f"(x-{px})", f"(y-{py})", f"(z-{pz})"
+        scene["Body block"]["Displacement"] = ", ".join(
+            f"top: {name} = {formula}" for name, formula in (
+                ("x", f"{ux} + {ry}*{z} - {rz}*{y}"), ("y", f"{uy} + {rz}*{x} - {rx}*{z}"),
+                ("z", f"{uz} + {rx}*{y} - {ry}*{x}")))
+        del scene["Reference points"], scene["Reference point tool"]
+        self.assertAlmostEqual(evaluate(scene)["potential energy"] / expected, 1., delta=1e-10)
+
+    def test_an_obstacle(self):
+        """A sphere under a force moves as far as that force needs, and balances it."""
+        for dim in (2, 3):
+            scene = {"Dimension": dim, "Bodies": ["base"], "Obstacles": ["ball"],
+                     "Reference points": ["ram"],
+                     "Body base": {"Box cells": [6] * dim, "Young's modulus": 1000,
+                                   "Supports": "bottom: " + "xyz"[:dim]},
+                     "Obstacle ball": {"Shape": "sphere", "Point": [.45, .55][:dim - 1] + [3.],
+                                       "Radius": 2.},
+                     "Contact": {"Pairs": "base.top: ball"}}
+            up = "xyz"[dim - 1]
+            others = [name for name in names(dim) if name != up]
+            point = {"Point": [.3, .6][:dim - 1] + [3.], "Obstacles": ["ball"], "Supports": others}
+            pushed = evaluate(with_responses(
+                {**scene, "Reference point ram": {**point, "Force": [0.] * (dim - 1) + [-3.]}},
+                {**quantities("ram", dim, "displacement"), "Response f": {
+                    "Quantity": "contact force", "Component": up}}))
+            self.assertAlmostEqual(abs(pushed["f"]), 3., delta=1e-9)
+            scene["Obstacle ball"]["Displacement"] = [0.] * (dim - 1) + [
+                pushed[f"displacement {up}"]]
+            del scene["Reference points"]
+            moved = evaluate(with_responses(scene, {"Response f": {
+                "Quantity": "contact force", "Component": up}}))
+            self.assertAlmostEqual(moved["f"] / pushed["f"], 1., delta=1e-8)
+
+    def test_load_cases(self):
+        """A load case with a force and one with the displacement that this force causes."""
+        scene = with_responses(punch(2), {**quantities("tool", 2, "displacement", "rotation")})
+        pushed = evaluate({**scene, "Reference point tool": {
+            **scene["Reference point tool"], "Force": [1., -20.], "Moment": [.6]}})
+        lift, turn = pushed["displacement y"], pushed["rotation z"]
+        scene.update({"Load cases": ["push", "hold"],
+                      "Load case push": {"Force": "tool: 1 -20", "Moment": "tool: 0.6"},
+                      "Load case hold": {"Force": "tool: 1 0", "Displacement":
+                                         f"tool: y = {lift!r}, tool: rz = {turn!r}"}})
+        with snug.Model.from_dict(scene, set=TIGHT) as model:
+            result = model.evaluate()
+        for name, value in pushed.values.items():
+            if name != "potential energy":
+                for case in ("push", "hold"):
+                    self.assertAlmostEqual(result[f"{case}.{name}"] / value, 1., delta=1e-8,
+                                           msg=name)
+
+    def test_ranks_and_subdomains(self):
+        scene = with_responses(punch(3, FORCE[3]), quantities("tool", 3, "displacement", "rotation"))
+        known = evaluate(scene)
+        for ranks, subdomains in ((1, 9), (2, 8), (3, 12)):
+            found = evaluate(scene, ranks=ranks, **{"Decomposition/Subdomains": subdomains})
+            self.assert_close(found.values.values(), known.values.values(), 1e-9)
+
+    def test_gradients(self):
+        """Derivatives of motions and reactions of a face and an obstacle, with friction."""
+        scene = punch(2, FORCE[2])
+        scene.update({"Obstacles": ["ball"], "Reference points": ["tool", "ram"],
+                      "Obstacle ball": {"Shape": "sphere", "Point": [.0, 1.5], "Radius": .5},
+                      "Reference point ram": {"Point": [0., 1.6], "Obstacles": ["ball"],
+                                              "Force": [.1, 0.], "Displacement": ["y = -0.01"]},
+                      "Shape": {"Basis": "formula modes", "Bounds": [-.1, .1],
+                                "Modes": "0, 0.1*x*y; 0.2*y*x, 0.3*x*x"},
+                      "Optimization": {"Objective": "potential energy"}})
+        scene["Reference point ram"]["Supports"] = ["rz"]
+        scene["Contact"]["Pairs"] += ", base.top: ball"
+        responses = quantities("tool", 2, "displacement", "rotation")
+        responses.update({"Response push": {"Quantity": "reaction", "Reference point": "ram",
+                                            "Component": "y"},
+                          "Response turn": {"Quantity": "reaction moment", "Component": "z",
+                                            "Reference point": "ram"},
+                          "Response way": {"Quantity": "displacement", "Component": "x",
+                                           "Reference point": "ram"}})
+        with snug.Model.from_dict(with_responses(scene, responses), set=TIGHT) as model:
+            x, step = [.02, -.03], 1e-4
+            result = model.evaluate(x, gradients=True)
+            for j in range(2):
+                values = [model.evaluate([x[0] + k * step * (j == 0), x[1] + k * step * (j == 1)])
+                          for k in (-2, -1, 1, 2)]
+                for name, gradient in result.gradients.items():
+                    a, b, c, d = (value[name] for value in values)
+                    difference = (a - 8. * b + 8. * c - d) / (12. * step)
+                    self.assertAlmostEqual(gradient[j], difference,
+                                           delta=1e-8 * abs(gradient).max(), msg=name)
+
+    def test_nothing_holds_a_point(self):
+        scene = punch(2, FORCE[2])
+        scene["Contact"]["Friction"] = "none"
+        del scene["Contact"]["Friction coefficient"]
+        with self.assertRaisesRegex(snug.DesignFailed, "not held against its load along"):
+            evaluate(scene)
+
+    def test_supports_beside_a_face(self):
+        """Nodes that supports hold must follow the point all the same."""
+        scene = punch(3, held=[0., 0., -.01, 0., 0., 0.])
+        scene["Body block"]["Supports"] = "left: x, front: y"
+        evaluate(scene)
+        scene["Reference point tool"]["Displacement"][0] = "x = 0.002"
+        with self.assertRaisesRegex(snug.DesignFailed, "reference point 'tool'"):
+            evaluate(scene)
+
+
+if __name__ == "__main__":
+    os.environ["SNUG"] = sys.argv[1]
+    os.environ["PATH"] = os.pathsep.join([str(pathlib.Path(sys.argv[2]).parent), os.environ["PATH"]])
+    unittest.main(argv=sys.argv[:1])
