@@ -67,7 +67,7 @@ public:
   {
     std::vector<response::Partials<dim>> partials;
     for (unsigned int j = 0; j < responses.size(); ++j)
-      if (sensitivity::needs_solve(*responses[j], solver.has_friction()))
+      if (sensitivity::needs_solve(*responses[j], solver.has_potential()))
         {
           column[j] = partials.size();
           partials.push_back(responses[j]->partials(solver, state));
@@ -294,7 +294,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
     {
       if (responses[j]->needs_solution())
         derivatives[j] = responses[j]->field_derivative(solver, state);
-      if (!sensitivity::needs_solve(*responses[j], solver.has_friction()))
+      if (!sensitivity::needs_solve(*responses[j], solver.has_potential()))
         continue;
       place[j] = all.size();
       all.push_back(adjoints.of(j, derivatives[j], all[0]));

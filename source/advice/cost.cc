@@ -159,7 +159,7 @@ double solving_responses(const scene::Scene &scene)
       names.push_back(scene::constraint_name(scene, constraint.first).response);
   return std::count_if(names.begin(), names.end(), [&](const std::string &name) {
     const auto response = response::make_response<dim>(*scene::response_called(scene, name));
-    return response->needs_solution() && (scene::has_friction(scene) || !response->stationary());
+    return response->needs_solution() && (!scene::has_potential(scene) || !response->stationary());
   });
 }
 

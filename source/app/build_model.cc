@@ -69,7 +69,7 @@ double search_tolerance(const scene::Scene &scene, const std::vector<std::string
   const bool   sharp = std::any_of(responses.begin(), responses.end(), [&](const auto &name) {
     return sensitivity::needs_solve(*response::make_response<dim>(
                                       *scene::response_called(scene, name)),
-                                      scene::has_friction(scene));
+                                      scene::has_potential(scene));
   });
   return sharp ? std::clamp(scene.optimization.objective_tolerance, least, usual) : usual;
 }

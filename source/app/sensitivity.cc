@@ -48,11 +48,11 @@ Sensitivity<dim>::Sensitivity(ShapeProblem<dim> &problem,
   : problem(problem), results(results), states(states)
 {
   choose_method();
-  const bool  with_friction = problem.solver->has_friction();
+  const bool  has_potential = problem.solver->has_potential();
   const auto &load_cases    = problem.solver->model().load_cases;
   const bool  with_steps    = std::any_of(load_cases.begin(), load_cases.end(),
                                           [](const auto &of) { return of.after.has_value(); });
-  bool        one_sided     = sensitivity::needs_solve(*problem.objective, with_friction) &&
+  bool        one_sided     = sensitivity::needs_solve(*problem.objective, has_potential) &&
                    std::any_of(states.begin(), states.end(),
                                [](const auto &state) { return state.weak_contacts > 0; });
   if (one_sided)
@@ -91,7 +91,7 @@ void Sensitivity<dim>::choose_method()
     }
   const auto choice =
     sensitivity::cheapest_methods<dim>({problem.objective.get()}, problem.shapes->n_variables(),
-                                       problem.solver->has_friction())
+                                       problem.solver->has_potential())
       .front();
   chosen          = choice.method;
   gradient.reason = choice.reason;
@@ -113,7 +113,7 @@ std::vector<typename Sensitivity<dim>::Method> Sensitivity<dim>::methods() const
     return {by(chosen, given.derivatives)};
   const auto         &response = *problem.objective;
   std::vector<Method> list;
-  if (!sensitivity::needs_solve(response, problem.solver->has_friction()))
+  if (!sensitivity::needs_solve(response, problem.solver->has_potential()))
     list.push_back(by(By::energy, Derivatives::exact));
   if (response.needs_solution())
     {

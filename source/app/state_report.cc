@@ -158,6 +158,9 @@ void print_forces(const ShapeProblem<dim> &problem, const state::ContactState<di
         << stress << " at " << vector_text(tie.tension_place, extent) << length
         << ", largest shear traction " << tie.max_shear << stress << " at "
         << vector_text(tie.shear_place, extent) << length << '\n';
+  for (const auto &bolt : state.bolts)
+    out << "  bolt " << bolt.name << ": tension " << bolt.tension << force << ", shortening "
+        << bolt.shortening << length << '\n';
   for (const auto &point : state.points)
     out << "  reference point " << point.name << ": displacement "
         << vector_text(point.displacement, state.displacement_peak.size) << length << ", rotation "

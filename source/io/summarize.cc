@@ -137,6 +137,11 @@ Summary::State summary_part(const state::Reaction<dim> &reaction)
           {"moment", numbers(reaction.moment)}};
 }
 
+Summary::State summary_part(const state::BoltState &bolt)
+{
+  return {{"name", bolt.name}, {"tension", bolt.tension}, {"shortening", bolt.shortening}};
+}
+
 Summary::State summary_part(const state::GeometricEffect &effect)
 {
   return {{"name", effect.body},
@@ -216,6 +221,7 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"pairs", array_of(state.pairs)},
           {"ties", array_of(state.ties)},
           {"points", array_of(state.points)},
+          {"bolts", array_of(state.bolts)},
           {"reactions", array_of(state.reactions)},
           {"load", numbers(state.load)},
           {"balance", numbers(state.balance)},

@@ -256,8 +256,12 @@ void add_numbers(const Json &state, std::vector<std::string> &names, std::vector
   for (const auto &point : state.at("points"))
     for (const char *key : {"displacement", "rotation", "force", "moment"})
       for (std::size_t d = 0; d < point.at(key).size(); ++d)
-        add(std::string("point_") + key + "_" + "xyz"[d] + " " + point.at("name").get<std::string>(),
+        add(std::string("point_") + key + "_" + "xyz"[d] + " " +
+              point.at("name").get<std::string>(),
             point.at(key)[d]);
+  for (const auto &bolt : state.at("bolts"))
+    for (const char *key : {"tension", "shortening"})
+      add(std::string("bolt_") + key + " " + bolt.at("name").get<std::string>(), bolt.at(key));
   for (const auto &[name, value] : state.at("responses").items())
     add(name, value);
 }

@@ -6,14 +6,14 @@
 
 namespace snug::response {
 namespace {
-/// Return the index of the reference point of a response.
+/// Return the index of the reference point or bolt of a response.
 template <int dim>
 unsigned int find_reference_point(const state::StateSolver<dim> &solver,
                                   const ResponseParameters      &parameters)
 {
   const auto &points = solver.model().points;
   const auto  found  = std::find_if(points.begin(), points.end(), [&](const auto &point) {
-    return point.name == parameters.reference_point;
+    return point.name == (parameters.bolt.empty() ? parameters.reference_point : parameters.bolt);
   });
   if (found == points.end())
     throw bad_entry(parameters.path("Reference point"), parameters.reference_point,
@@ -27,6 +27,8 @@ unsigned int unknown_of(const state::StateSolver<dim> &solver,
                         const ResponseParameters      &parameters,
                         const bool                     is_rotation)
 {
+  if (!parameters.bolt.empty())
+    return 0;
   const unsigned int n = solver.mesh().idealization().n_rigid_motions();
   const auto         c =
     static_cast<unsigned int>(parameters.component) - static_cast<unsigned int>(Component::x);
@@ -41,7 +43,14 @@ unsigned int unknown_of(const state::StateSolver<dim> &solver,
   return n == 1 ? 0 : !is_rotation ? c : dim == 2 ? 2 : dim + c;
 }
 
-/// A component of the motion q of a reference point.
+std::vector<std::string> entries_of(const ResponseParameters &parameters)
+{
+  if (parameters.quantity.rfind("bolt", 0) == 0)
+    return {"Bolt"};
+  return {"Reference point", "Component"};
+}
+
+/// A component of the motion q of a reference point, or the shortening of a bolt.
 template <int dim>
 class PointMotion : public Response<dim>
 {
@@ -50,7 +59,7 @@ public:
     : parameters(parameters), is_rotation(is_rotation)
   {}
 
-  std::vector<std::string> entries() const override { return {"Reference point", "Component"}; }
+  std::vector<std::string> entries() const override { return entries_of(parameters); }
 
   void check(const state::StateSolver<dim> &solver) const override
   {
@@ -101,9 +110,9 @@ private:
 };
 
 /**
- * Force or moment of the supports of a reference point. With the load w of the point and the
- * entries b_i of the rows on the unknown of the motion, equilibrium of the point gives J = sum_i
- * p_i b_i - w, for moments times the length by which rotations are multiplied.
+ * Force or moment of the supports of a reference point, or tension of a bolt. With the load w of
+ * the point and the entries b_i of the rows on the unknown of the motion, equilibrium of the point
+ * gives J = sum_i p_i b_i - w, for moments times the length by which rotations are multiplied.
  */
 template <int dim>
 class PointReaction : public Response<dim>
@@ -113,7 +122,7 @@ public:
     : parameters(parameters), is_moment(is_moment)
   {}
 
-  std::vector<std::string> entries() const override { return {"Reference point", "Component"}; }
+  std::vector<std::string> entries() const override { return entries_of(parameters); }
 
   void check(const state::StateSolver<dim> &solver) const override
   {
@@ -132,7 +141,9 @@ public:
     const auto forces = row_forces(solver, state);
     const auto p      = find_reference_point(solver, parameters);
     const auto k      = unknown_of(solver, parameters, is_moment);
-    double     sum    = -solver.model().load_cases[state.load_case].points[p].wrench[k];
+    double     sum    = 0.;
+    if (parameters.bolt.empty())
+      sum -= solver.model().load_cases[state.load_case].points[p].wrench[k];
     for (const auto &[row, factor] : factors(solver, state))
       sum += factor * forces[row];
     return sum;

@@ -50,6 +50,11 @@ ChoiceTable<MakeResponse<dim>> body_responses()
      "moment of these forces about the axis 'Component' through 'Point' in space, or of the "
      "supports of a reference point about the point [force length]",
      of_face_or_point<dim, reaction_moment<dim>, point_reaction<dim>, true>},
+    {"bolt tension", "force in the shank of a bolt [force]",
+     [](const Parameters &parameters) { return point_reaction<dim>(parameters, false); }},
+    {"bolt shortening",
+     "length by which the sides of the cut of a bolt have moved into each other [length]",
+     [](const Parameters &parameters) { return point_motion<dim>(parameters, false); }},
     {"von Mises norm",
      "p-norm of the von Mises stress over one body or all bodies, divided by the p-norm of 1 "
      "[force/length^2]",

@@ -23,6 +23,8 @@ void ResponseParameters::declare(Entries &entries)
   entries.add("Reference point", reference_point, allowed("the name of a reference point"),
               "The reference point of a displacement, a rotation, a reaction or a reaction moment, "
               "instead of 'Face'.");
+  entries.add("Bolt", bolt, allowed("the name of a bolt"),
+              "The bolt whose tension or shortening is measured.");
   entries.add("Component", component,
               "The component of a displacement or a force, or the axis of a rotation or a moment, "
               "which is z in 2D.");

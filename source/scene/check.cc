@@ -118,7 +118,7 @@ void check_gradient(const Scene &scene, const SectionCheck &section)
   const auto         measured  = response_called(scene, objective);
   section.require(scene.gradient.method != sensitivity::Method::energy ||
                     !sensitivity::needs_solve(*response::make_response<3>(*measured),
-                                              has_friction(scene)),
+                                              has_potential(scene)),
                   "Method", to_text(scene.gradient.method),
                   "must be auto, adjoint, direct or finite differences for the objective '" +
                     objective + "'");
@@ -193,6 +193,7 @@ void check_names(const Scene &scene, const Origins &origins)
   check_list_of_names("Materials", names_of(scene.materials), origins);
   check_list_of_names("Obstacles", names_of(scene.obstacles), origins);
   check_list_of_names("Reference points", names_of(scene.points), origins);
+  check_list_of_names("Bolts", names_of(scene.bolts), origins);
   check_list_of_names("Responses", names_of(scene.responses), origins);
   if (scene.shapes.size() > 1 || !scene.shapes.front().name.empty())
     check_list_of_names("Shapes", names_of(scene.shapes), origins);
@@ -214,6 +215,7 @@ void check(const Scene &scene, const Origins &origins)
   check_export(scene, origins);
   check_contact(scene, origins);
   check_points(scene, origins);
+  check_bolts(scene, origins);
   check_shapes(scene, origins);
   check_responses(scene, origins);
   check_friction(scene, origins);

@@ -31,6 +31,11 @@ void check_places(const Scene &scene, const SectionCheck &section, const Paramet
                       points.end(),
                   "Reference point", response.reference_point, "there is no such reference point",
                   suggestion(response.reference_point, points));
+  const auto bolts = names_of(scene.bolts);
+  section.require(!response.reads("Bolt") ||
+                    std::find(bolts.begin(), bolts.end(), response.bolt) != bolts.end(),
+                  "Bolt", response.bolt, "must be the name of a bolt of 'Bolts'",
+                  suggestion(response.bolt, bolts));
   if (!response.reads("Pair"))
     return;
   std::vector<std::string> known;
@@ -81,10 +86,11 @@ Parameters require_response(const Scene        &scene,
   section.require(response.has_value(), entry, value,
                   "'" + name + "' is not a response; the responses are " + to_text(known),
                   suggestion(name, known));
-  section.require(!response->name.empty() || !response->reads("Face"), entry, value,
-                  "'" + name +
-                    "' needs a subsection Response with 'Point' or 'Face', and a name "
-                    "in 'Responses'");
+  section.require(!response->name.empty() || !(response->reads("Face") || response->reads("Bolt")),
+                  entry, value,
+                  "'" + name + "' needs a subsection Response with " +
+                    (response->reads("Bolt") ? "'Bolt'" : "'Point' or 'Face'") +
+                    ", and a name in 'Responses'");
   section.require(!response->reads("Pair") || !scene.contact.pairs.empty(), entry, value,
                   "'" + name + "' has no contact to measure in the scene");
   section.require(!response::make_response<3>(*response)->needs_density() ||

@@ -56,6 +56,8 @@ void declare_general(Entries &entries, Scene &scene)
             "The names of points with a rigid motion that faces and obstacles follow. Each point "
             "has a subsection Reference point NAME. Load cases may have entries for them in "
             "'Force', 'Moment' and 'Displacement', as 'NAME: 0 0 -100' and 'NAME: rz = 0.01'.");
+  add_names(entries, "Bolts", scene.bolts,
+            "The names of the bolts. Each bolt has a subsection Bolt NAME.");
   add_names(entries, "Shapes", scene.shapes,
             "The names of the shapes. Each shape has a subsection Shape NAME. An empty list means "
             "one shape without a name, in subsection Shape.");
@@ -141,6 +143,10 @@ void declare(Entries &entries, Scene &scene)
   declare_named(entries, scene.points,
                 "A point with a rigid motion, under forces and moments, that faces and obstacles "
                 "follow. Components that a load case prescribes are free in other load cases.");
+  declare_named(entries, scene.bolts,
+                "A bolt, cut across its shank into two bodies that are tied (Law = tied). It is "
+                "tightened by moving the sides of the cut into each other. In a load step it keeps "
+                "its length, unless the load case has a 'Preload' or a 'Shortening' for it.");
   entries.begin_section("Contact",
                         "The pairs of faces that may come into contact, and the method.");
   scene.contact.declare(entries);

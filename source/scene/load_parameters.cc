@@ -109,7 +109,14 @@ void LoadCaseParameters::declare(Entries &entries)
     "Load step", load_step,
     "Whether this load case is a load step: contacts with friction continue from their slips "
     "in the load case before it in 'Load cases', which must have the same 'Position'. The loads "
-    "are those at the end of the step. The first load case starts without slips.");
+    "are those at the end of the step. The first load case starts without slips. Bolts without "
+    "'Preload' and 'Shortening' in this section keep their length.");
+  entries.add("Preload", preloads, allowed("a list 'bolt: number, ...' of different bolts"),
+              "The tensions to which bolts are tightened in this load case: 'm8: 5000'. Units: "
+              "force.");
+  entries.add("Shortening", shortenings, allowed("a list 'bolt: number, ...' of different bolts"),
+              "The lengths by which bolts are shortened in this load case: 'm8: 0.02'. Units: "
+              "length.");
   declare_gravity(entries, gravity);
   entries.add("Temperature", temperatures,
               allowed("a list 'body: formula, ...' of different bodies"),

@@ -116,6 +116,7 @@ void make_named(const std::vector<Statement> &statements, Scene &scene)
   make(statements, "Materials", scene.materials);
   make(statements, "Obstacles", scene.obstacles);
   make(statements, "Reference points", scene.points);
+  make(statements, "Bolts", scene.bolts);
   make(statements, "Responses", scene.responses);
   make(statements, "Shapes", scene.shapes);
   if (scene.shapes.empty())

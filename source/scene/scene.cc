@@ -146,6 +146,13 @@ bool has_friction(const Scene &scene)
                      [](const auto &pair) { return pair.parameters.has_friction(); });
 }
 
+bool has_potential(const Scene &scene)
+{
+  const bool steps = std::any_of(scene.load_cases.begin(), scene.load_cases.end(),
+                                 [](const auto &load_case) { return load_case.load_step; });
+  return !has_friction(scene) && (scene.bolts.empty() || !steps);
+}
+
 bool is_nearly_incompressible(const Scene &scene, const Body &body)
 {
   if (body.formulation != elasticity::Formulation::B_bar)

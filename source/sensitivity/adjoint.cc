@@ -30,7 +30,10 @@ class AdjointSweep
 {
 public:
   AdjointSweep(const LoadCases<dim> &load_cases, const MeasuredResponses<dim> &measured)
-    : load_cases(load_cases), measured(measured), of_slips(load_cases.size())
+    : load_cases(load_cases)
+    , measured(measured)
+    , of_slips(load_cases.size())
+    , of_motions(load_cases.size())
   {
     result.of_response.resize(measured.size());
     for (auto &gradient : result.of_response)
@@ -65,6 +68,8 @@ private:
   std::vector<mesh::Field<dim>> fields; ///< dJ/dX
   /// dJ/d(slips) at the end of each load case, by response, as far as later steps depend on them
   std::vector<std::map<unsigned int, qp::MultiVector>> of_slips;
+  /// the same of motions that later steps lock
+  std::vector<std::map<unsigned int, qp::MultiVector>> of_motions;
 
   void add(const unsigned int k)
   {
@@ -73,7 +78,7 @@ private:
     const auto &feti         = problem.solver.feti(problem.state);
     auto [places, responses] = responses_of(measured, k);
     auto partials            = partials_of(problem, responses);
-    // Responses of later load steps depend on this state through its slips.
+    // Responses of later load steps depend on this state through its slips and motions.
     for (const auto &[i, slips] : of_slips[k])
       if (std::find(places.begin(), places.end(), i) == places.end())
         {
@@ -83,10 +88,18 @@ private:
         }
     const auto      of_step = slip_partials(problem.solver, problem.state, partials);
     qp::MultiVector slips(feti.n_owned(), 0); // at the end of the step
+    auto            motions = motions_in(problem.solver, feti::PrimalVectors(0));
+    const auto      append  = [](const auto &of, const unsigned int i, qp::MultiVector &to) {
+      to.append(of.count(i) > 0 ? of.at(i) : qp::MultiVector(to.n_rows()));
+    };
     for (const unsigned int i : places)
-      slips.append(of_slips[k].count(i) > 0 ? of_slips[k][i] : qp::MultiVector(feti.n_owned()));
+      {
+        append(of_slips[k], i, slips);
+        append(of_motions[k], i, motions);
+      }
     auto right = state_partials(problem.solver, problem.state, partials);
     right.primal.add(1., feti.linearization().multiply_Bt(slips));
+    add_motions(problem.solver, motions, right.primal);
     slips.add(1., of_step);
     auto adjoint = TangentSystem(feti, strong_rows(problem.solver, problem.state).transpose(),
                                  problem.solver.model().solver, problem.parameters.solves,
@@ -94,14 +107,8 @@ private:
                      .solve(right);
     if (const auto before = step_before(load_cases, k))
       for (unsigned int column = 0; column < places.size(); ++column)
-        {
-          auto eta = adjoint.dual.columns_from(column, 1);
-          keep_tangents(feti, eta);
-          // The slip of this step is relative to the one before.
-          eta.add(-1., of_step.columns_from(column, 1));
-          auto &sum = of_slips[*before].try_emplace(places[column], feti.n_owned()).first->second;
-          sum.add(1., eta);
-        }
+        add_before(problem, *before, places[column], adjoint.dual.columns_from(column, 1),
+                   of_step.columns_from(column, 1));
     if (has_bounds(problem.solver, problem.state))
       {
         // The change of a bound acts through the response and, as a load, through w.
@@ -112,6 +119,30 @@ private:
     adjoint.dual.add(-1., slips);
     add_data(problem, adjoint, places, partials);
     of_slips[k].clear();
+    of_motions[k].clear();
+  }
+
+  /// Add dJ/d(slips) and dJ/d(motions) at the end of the load step before that of @p problem, for
+  /// the dual adjoint @p eta and dJ/d(slips) of this step.
+  void add_before(const GradientProblem<dim> &problem,
+                  const unsigned int          before,
+                  const unsigned int          response,
+                  qp::MultiVector             eta,
+                  const qp::MultiVector      &of_step)
+  {
+    const auto &solver  = problem.solver;
+    auto        motions = motions_in(solver, feti::PrimalVectors(0));
+    motions.append(qp::MultiVector(motions.n_rows()));
+    const auto &gluing = solver.gluing(problem.state.load_case);
+    const auto  first  = solver.contact(problem.state.load_case).tangents().size();
+    for (const auto &[row, place] : gluing.locked_rows(problem.state.load_case))
+      motions(place - first, 0) += eta(row);
+    of_motions[before].try_emplace(response, motions.n_rows()).first->second.add(1., motions);
+    keep_tangents(solver.feti(problem.state), eta);
+    // The slip of this step is relative to the one before.
+    eta.add(-1., of_step);
+    const unsigned int n = solver.gluing(load_cases[before].state.load_case).layout().n_owned();
+    of_slips[before].try_emplace(response, n).first->second.add(1., with_rows(eta, n));
   }
 
   void add_data(const GradientProblem<dim>       &problem,

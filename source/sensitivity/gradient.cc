@@ -59,7 +59,7 @@ std::vector<MethodChoice> methods(const LoadCases<dim>         &load_cases,
     {
       const auto [places, of_case] = responses_of(measured, c);
       const auto cheapest =
-        cheapest_methods(of_case, problem.basis.n_variables(), problem.solver.has_friction());
+        cheapest_methods(of_case, problem.basis.n_variables(), problem.solver.has_potential());
       for (unsigned int i = 0; i < places.size(); ++i)
         choices[places[i]] =
           !wanted
@@ -102,11 +102,11 @@ mesh::Field<dim> spanned_field(const GradientProblem<dim> &problem,
 template <int dim>
 std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
                                            const unsigned int    n_variables,
-                                           const bool            with_friction)
+                                           const bool            has_potential)
 {
   unsigned int n_solves = 0;
   for (const auto *response : responses)
-    n_solves += needs_solve(*response, with_friction);
+    n_solves += needs_solve(*response, has_potential);
   const MethodChoice solving{n_solves < n_variables ? Method::adjoint : Method::direct,
                              counted(n_solves, "response") + ", " +
                                counted(n_variables, "variable")};
@@ -114,7 +114,7 @@ std::vector<MethodChoice> cheapest_methods(const Responses<dim> &responses,
   for (const auto *response : responses)
     if (!response->needs_solution())
       choices.push_back({Method::energy, "depends only on the geometry"});
-    else if (!needs_solve(*response, with_friction))
+    else if (!needs_solve(*response, has_potential))
       choices.push_back({Method::energy, "needs no linear solve"});
     else
       choices.push_back(solving);
@@ -132,10 +132,11 @@ Gradients<dim> gradients(const LoadCases<dim> &load_cases, const MeasuredRespons
   auto result = by_methods(load_cases, responses, methods(load_cases, responses));
   for (unsigned int i = 0; i < responses.size(); ++i)
     {
-      auto       &gradient    = result.of_response[i];
-      const auto &state       = load_cases[responses[i].load_case].state;
-      gradient.differentiable = state.weak_contacts == 0 ||
-                                !needs_solve(*responses[i].response, problem.solver.has_friction());
+      auto       &gradient = result.of_response[i];
+      const auto &state    = load_cases[responses[i].load_case].state;
+      gradient.differentiable =
+        state.weak_contacts == 0 ||
+        !needs_solve(*responses[i].response, problem.solver.has_potential());
       if (!problem.parameters.shape_gradient)
         gradient.shape.reset();
       else if (!gradient.shape)

@@ -11,9 +11,9 @@ namespace snug::sensitivity {
 using response::Partials;
 
 template <int dim>
-bool needs_solve(const response::Response<dim> &response, const bool with_friction)
+bool needs_solve(const response::Response<dim> &response, const bool has_potential)
 {
-  return response.needs_solution() && (with_friction || !response.stationary());
+  return response.needs_solution() && (!has_potential || !response.stationary());
 }
 
 template <int dim>
@@ -84,10 +84,12 @@ Gradients<dim> energy_gradients(const LoadCases<dim>         &load_cases,
       const auto &problem = load_cases[load_case];
       problem.solver.restore(problem.state);
       const bool exact = problem.parameters.derivatives == Derivatives::exact;
-      if (needs_solve(*response, problem.solver.has_friction()))
+      if (needs_solve(*response, problem.solver.has_potential()))
         throw bad_entry("Gradient/Method", "energy",
                         std::string("the response has no gradient without a solve") +
-                          (response->stationary() ? ", because friction has no potential" : "") +
+                          (response->stationary()
+                             ? ", because friction and locked bolts have no potential"
+                             : "") +
                           "; use 'adjoint' or 'direct'");
       auto field = response->partials(problem.solver, problem.state).positions;
       if (response->stationary() && exact)
@@ -133,8 +135,9 @@ Gradients<dim> direct_gradients(const LoadCases<dim>         &load_cases,
 {
   Gradients<dim> result;
   result.of_response.resize(measured.size());
-  const auto                   needed = needed_cases(load_cases, measured);
-  std::vector<qp::MultiVector> slips(load_cases.size()); // derivatives, of tangential rows
+  const auto needed = needed_cases(load_cases, measured);
+  // derivatives, of tangential rows and of the motions of reference points
+  std::vector<qp::MultiVector> slips(load_cases.size()), motions(load_cases.size());
   for (unsigned int k = 0; k < load_cases.size(); ++k)
     {
       if (!needed[k])
@@ -145,8 +148,16 @@ Gradients<dim> direct_gradients(const LoadCases<dim>         &load_cases,
       auto        data  = residual_derivatives(problem);
       auto        rates = data.dual; // B_T u' + B_T' u - g'
       if (const auto before = step_before(load_cases, k))
-        data.dual.add(1., slips[*before]);
+        {
+          data.dual.add(1., with_rows(slips[*before], feti.n_owned()));
+          const auto c     = problem.state.load_case;
+          const auto first = problem.solver.contact(c).tangents().size();
+          for (const auto &[row, place] : problem.solver.gluing(c).locked_rows(c))
+            for (unsigned int j = 0; j < data.dual.n_columns(); ++j)
+              data.dual(row, j) += motions[*before](place - first, j);
+        }
       const auto derivatives = state_derivatives(problem, data);
+      motions[k]             = motions_in(problem.solver, derivatives.primal);
       slips[k]               = feti.linearization().multiply_B(derivatives.primal);
       slips[k].add(-1., rates);
       keep_tangents(feti, slips[k]);

@@ -3,6 +3,7 @@
 #include <snug/state/continuity.h>
 #include <snug/state/nodal_pressures.h>
 #include <snug/state/peaks.h>
+#include <snug/state/point_results.h>
 #include <snug/state/reactions.h>
 #include <snug/state/thermal.h>
 #include <snug/state/validity_checks.h>
@@ -260,9 +261,12 @@ void require_ties(const StateSolver<dim> &solver, const ContactState<dim> &state
 {
   // Part of the largest displacement. Mortar rows that are left out have small means, because they
   // reach beyond the held nodes.
-  const double small   = 0.02;
-  const auto   parting = solver.ties().parting(state.surface_positions, state.surface_displacement);
-  double       largest = 0.;
+  const double small = 0.02;
+  const auto   moved =
+    solver.points().without_bolts(state.surface_positions, state.surface_displacement,
+                                  point_motions(solver, state.u, 0));
+  const auto parting = solver.ties().parting(state.surface_positions, moved);
+  double     largest = 0.;
   for (const auto &u : state.surface_displacement)
     largest = std::max(largest, u.norm());
   if (parting.distance <= small * largest)

@@ -235,8 +235,28 @@ qp::MultiVector Gluing<dim>::right_hand_side_derivative(const RowCoefficients<di
 }
 
 template <int dim>
-void Gluing<dim>::add_to_tangents(const std::vector<double> &values, qp::MultiVector &g) const
+std::vector<std::pair<unsigned int, unsigned int>>
+Gluing<dim>::locked_rows(const unsigned int load_case) const
 {
+  std::vector<std::pair<unsigned int, unsigned int>> result;
+  for (unsigned int row = 0; row < rows.owned.size(); ++row)
+    if (rows.owned[row].source == Source::point)
+      {
+        const auto [point, unknown] = rows.held_motions[rows.owned[row].index];
+        const auto &load            = model.load_cases[load_case].points[point];
+        if (!load.locked.empty() && load.locked[unknown])
+          result.emplace_back(row, n_tangents + point * load.held.size() + unknown);
+      }
+  return result;
+}
+
+template <int dim>
+void Gluing<dim>::add_step(const std::vector<double> &values,
+                           const unsigned int         load_case,
+                           qp::MultiVector           &g) const
+{
+  for (const auto &[row, place] : locked_rows(load_case))
+    g(row) += values[place];
   for (unsigned int row = 0; row < rows.owned.size(); ++row)
     if (const auto &of = rows.owned[row];
         of.source == Source::contact && of.index >= n_contact_rows() && of.index < rows.n_bounded)

@@ -72,8 +72,15 @@ void add_points(const StateSolver<dim> &solver, ContactState<dim> &state)
   const auto &loads  = solver.model().load_cases[state.load_case].points;
   const bool  is_section         = solver.mesh().idealization().is_axisymmetric();
   const unsigned int n_rotations = dim == 2 ? 2 : 0; // component of the first rotation
+  for (const auto &motion : q)
+    state.slips.insert(state.slips.end(), motion.begin(), motion.end());
   for (unsigned int p = 0; p < points.size(); ++p)
     {
+      if (points[p].is_bolt())
+        {
+          state.bolts.push_back({points[p].name, loads[p].wrench[0] + forces[p][0], q[p][0]});
+          continue;
+        }
       PointState<dim> point;
       point.name  = points[p].name;
       point.place = points[p].place;

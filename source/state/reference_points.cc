@@ -45,8 +45,47 @@ void subtract(const qp::MultiVector &R, const dealii::Tensor<1, dim> &c, PointEn
 template <int dim>
 ReferencePoints<dim>::ReferencePoints(const mesh::BodyMesh<dim> &mesh,
                                       const mesh::Surface<dim>  &surface,
-                                      const Model<dim>          &model)
-  : mesh(mesh), model(model), surface(surface)
+                                      const Model<dim>          &model,
+                                      const Ties<dim>           &ties,
+                                      const Field               &positions)
+  : mesh(mesh), model(model), surface(surface), ties(ties), cuts(model.points.size())
+{
+  find_followers();
+  for (unsigned int p = 0; p < model.points.size(); ++p)
+    if (model.points[p].is_bolt())
+      find_cut(p, positions);
+}
+
+/// Find the slave side of the tied pair of a bolt, and its mean normal.
+template <int dim>
+void ReferencePoints<dim>::find_cut(const unsigned int p, const Field &positions)
+{
+  const auto &contact = *ties.paired();
+  const auto &cut     = model.points[p].cut;
+  const auto  rows    = contact.rows(positions);
+  const auto  areas   = contact.areas(positions);
+  cuts[p].moved.assign(surface.n_nodes(), false);
+  for (const auto &pair : contact.pairs())
+    {
+      cuts[p].pairs.push_back(false);
+      for (const auto &face : surface.faces())
+        if (contact::is_on(face, pair.slave) &&
+            std::find(cut.begin(), cut.end(), std::make_pair(face.body, face.boundary)) !=
+              cut.end())
+          {
+            cuts[p].pairs.back() = true;
+            for (const unsigned int node : face.nodes)
+              cuts[p].moved[node] = true;
+          }
+    }
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    if (cuts[p].pairs[contact.places()[i].pair])
+      cuts[p].axis += areas[i] * rows[i].normal;
+  cuts[p].axis /= cuts[p].axis.norm();
+}
+
+template <int dim>
+void ReferencePoints<dim>::find_followers()
 {
   const auto                none = narrow<unsigned int>(model.points.size());
   std::vector<unsigned int> point_of(surface.n_nodes(), none);
@@ -126,6 +165,22 @@ ReferencePoints<dim>::points_of_rows(const RowCoefficients<dim>  &rows,
     add_obstacle(i, i);
   for (unsigned int i = 0; i < contact.tangents().size(); ++i)
     add_obstacle(contact.n_rows() + i, contact.tangents()[i].row);
+  // The rows of ties are normal rows, then tangential rows that are not held.
+  std::vector<unsigned int> pairs;
+  if (!ties.empty())
+    {
+      const auto &places = ties.paired()->places();
+      for (const auto &place : places)
+        pairs.push_back(place.pair);
+      for (const auto &tangent : ties.paired()->tangents())
+        if (!tangent.is_held)
+          pairs.push_back(places[tangent.row].pair);
+    }
+  const auto first_tie = narrow<unsigned int>(rows.contact.size() + rows.tangents.size());
+  for (unsigned int i = 0; i < pairs.size(); ++i)
+    for (unsigned int p = 0; p < model.points.size(); ++p)
+      if (model.points[p].is_bolt() && cuts[p].pairs[pairs[i]])
+        result.emplace_back(first_tie + i, p);
   const auto first = narrow<unsigned int>(rows.n_rows() - rows.followers.size());
   for (unsigned int i = 0; i < rows.followers.size(); ++i)
     result.emplace_back(first + i, nodes[i / dim].second);
@@ -136,8 +191,11 @@ template <int dim>
 qp::MultiVector ReferencePoints<dim>::motions(const unsigned int            point,
                                               const dealii::Tensor<1, dim> &x) const
 {
-  return rigid_motions<dim>(mesh.idealization(), {x}, model.points[point].place,
-                            model.points[point].length);
+  auto R = rigid_motions<dim>(mesh.idealization(), {x}, model.points[point].place,
+                              model.points[point].length);
+  for (unsigned int c = 0; c < dim && model.points[point].is_bolt(); ++c)
+    R(c, 0) = cuts[point].axis[c];
+  return R;
 }
 
 template <int dim>
@@ -150,7 +208,8 @@ std::vector<PointEntries> ReferencePoints<dim>::entries(const Field             
     {
       result.push_back({row, point, {}});
       for (const auto &[node, c] : rows.row(row).coefficients)
-        subtract(motions(point, x[node]), c, result.back());
+        if (moves_node(point, node))
+          subtract(motions(point, x[node]), c, result.back());
     }
   return result;
 }
@@ -174,6 +233,8 @@ void ReferencePoints<dim>::differentiate(const Field                 &x,
       for (unsigned int a = 0; a < of_row.size(); ++a)
         {
           const auto &[node, c] = of_row[a];
+          if (!moves_node(point, node))
+            continue;
           subtract(motions(point, x[node]), derivatives.row(row).coefficients[a].second,
                    result.back());
           // Rotations are linear in x - p, and translations do not depend on it.
@@ -199,26 +260,44 @@ ReferencePoints<dim>::energy_gradient(const Field                            &x,
   for (unsigned int p = 0; p < model.points.size(); ++p)
     {
       const auto          theta = rotation<dim>(q[p], model.points[p].length);
-      std::vector<double> of_contact(n, 0.);
+      std::vector<double> of_contact(n, 0.), of_ties(rows.ties.size(), 0.);
       for (const auto &[row, point] : points_of_rows(rows, contact))
         if (point == p)
           {
             if (row < n)
               of_contact[row] = forces[row];
+            else if (row < n + of_ties.size())
+              of_ties[row - n] = forces[row];
             for (const auto &[node, c] : rows.row(row).coefficients)
-              result[node] += forces[row] * elasticity::turned(theta, c);
+              if (moves_node(p, node))
+                result[node] += forces[row] * elasticity::turned(theta, c);
           }
-      if (std::all_of(of_contact.begin(), of_contact.end(), [](double f) { return f == 0.; }))
-        continue;
       Field moved(surface.n_nodes());
       for (unsigned int node = 0; node < moved.size(); ++node)
-        moved[node] = times_motion<dim>(motions(p, x[node]), q[p]);
-      const auto of_rows =
-        contact.coefficient_gradient(x, moved, contact.forces(rows.contact, of_contact));
+        if (moves_node(p, node))
+          moved[node] = times_motion<dim>(motions(p, x[node]), q[p]);
+      Field of_rows(x.size());
+      if (model.points[p].is_bolt())
+        of_rows = ties.energy_gradient(x, moved, of_ties);
+      else if (!model.points[p].obstacles.empty())
+        of_rows = contact.coefficient_gradient(x, moved, contact.forces(rows.contact, of_contact));
       for (unsigned int node = 0; node < x.size(); ++node)
         result[node] -= of_rows[node];
     }
   return result;
+}
+
+template <int dim>
+typename ReferencePoints<dim>::Field
+ReferencePoints<dim>::without_bolts(const Field                            &x,
+                                    Field                                   displacement,
+                                    const std::vector<std::vector<double>> &q) const
+{
+  for (unsigned int p = 0; p < model.points.size(); ++p)
+    for (unsigned int node = 0; model.points[p].is_bolt() && node < displacement.size(); ++node)
+      if (cuts[p].moved[node])
+        displacement[node] -= times_motion<dim>(motions(p, x[node]), q[p]);
+  return displacement;
 }
 
 template <int dim>

@@ -61,7 +61,7 @@ StateProblem<dim>::StateProblem(const mesh::BodyMesh<dim> &mesh,
                                                          directions, at.position);
   });
   ties   = std::make_unique<Ties<dim>>(surface, model.ties, mesh.degree(), x, directions);
-  points = std::make_unique<ReferencePoints<dim>>(mesh, surface, model);
+  points = std::make_unique<ReferencePoints<dim>>(mesh, surface, model, *ties, x);
   systems.resize(tearing.subdomains.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
@@ -318,7 +318,7 @@ void StateProblem<dim>::set(const Field               &x,
   check_vanished_rows(load_case);
   auto g = at.gluing->right_hand_side(at.rows, load_case);
   if (!slips.empty())
-    at.gluing->add_to_tangents(slips, g);
+    at.gluing->add_step(slips, load_case, g);
   slips_before[load_case] = slips;
   loaded_problems[load_case] =
     std::make_unique<const feti::LoadedProblem>(*at.linearization, loads[load_case], std::move(g),

@@ -218,6 +218,18 @@ bool StateSolver<dim>::has_friction() const
 }
 
 template <int dim>
+bool StateSolver<dim>::has_potential() const
+{
+  const auto locks = [](const PointLoad &point) {
+    return std::find(point.locked.begin(), point.locked.end(), true) != point.locked.end();
+  };
+  return !has_friction() &&
+         std::none_of(model().load_cases.begin(), model().load_cases.end(), [&](const auto &of) {
+           return std::any_of(of.points.begin(), of.points.end(), locks);
+         });
+}
+
+template <int dim>
 RowCoefficients<dim> StateSolver<dim>::row_derivatives(const Field       &positions,
                                                        const Field       &velocity,
                                                        const unsigned int load_case) const

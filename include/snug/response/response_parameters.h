@@ -36,7 +36,7 @@ struct ResponseParameters
   std::string quantity = "potential energy"; ///< name in response_table()
   std::string body;                          ///< empty: all bodies
   std::string face;                          ///< name "body.boundary"
-  std::string reference_point;               ///< name
+  std::string reference_point, bolt;         ///< names
   /// point in the reference geometry [length]
   std::vector<double> point;
   Component           component = Component::normal;

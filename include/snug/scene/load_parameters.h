@@ -63,7 +63,8 @@ struct LoadCaseParameters
   std::map<std::string, std::string> temperatures;
   std::vector<double> gravity; ///< [length / time^2], in addition to the scene's gravity
   /// cases that the section stands for; with_cases() has replaced sections with more than one
-  unsigned int cases = 1;
+  unsigned int                  cases = 1;
+  std::map<std::string, double> preloads, shortenings; ///< by bolt [force], [length]
   /// motions of bodies and obstacles by name, see geometry::rigid_motion()
   std::vector<std::pair<std::string, std::string>> positions;
   /// whether contacts continue from their slips in the load case before this one

@@ -13,6 +13,7 @@
 #include <snug/optimization/optimization_parameters.h>
 #include <snug/qp/solver.h>
 #include <snug/response/response_parameters.h>
+#include <snug/scene/bolt.h>
 #include <snug/scene/load_parameters.h>
 #include <snug/scene/output_parameters.h>
 #include <snug/scene/reference_point.h>
@@ -100,6 +101,7 @@ struct Scene
   std::vector<Body>                        bodies;
   std::vector<contact::ObstacleParameters> obstacles;
   std::vector<ReferencePoint>              points;
+  std::vector<Bolt>                        bolts;
   std::vector<double>                      gravity; ///< [length / time^2]; empty: none
   /// empty: one load case, with the loads of the bodies alone
   std::vector<LoadCaseParameters> load_cases;
@@ -185,6 +187,10 @@ std::string text_of_materials(const std::map<std::string, std::string> &material
 
 /// Return whether a pair has friction.
 bool has_friction(const Scene &scene);
+
+/// Return whether the states minimize a potential: no pair has friction, and no load step locks a
+/// bolt.
+bool has_potential(const Scene &scene);
 
 /// Return the materials of the regions called @p regions, in their order. Regions without a
 /// material get that of the body.

@@ -11,11 +11,11 @@ struct MethodChoice
   std::string reason;
 };
 
-/// Return the method that "auto" chooses for each of the responses of @p n_variables, where
-/// contacts have friction or not.
+/// Return the method that "auto" chooses for each of the responses of @p n_variables, for states
+/// with or without a potential (StateSolver::has_potential()).
 template <int dim>
 std::vector<MethodChoice>
-cheapest_methods(const Responses<dim> &responses, unsigned int n_variables, bool with_friction);
+cheapest_methods(const Responses<dim> &responses, unsigned int n_variables, bool has_potential);
 
 /**
  * Compute dJ/dalpha of responses of load cases, in their order, by parameters.method. Responses of

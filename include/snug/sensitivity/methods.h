@@ -6,10 +6,10 @@
 
 namespace snug::sensitivity {
 /// Return whether dJ/dalpha needs a linear solve. It does not if the state makes J stationary or if
-/// J depends on the geometry alone. @p with_friction tells that contacts have friction, where the
+/// J depends on the geometry alone. Without @p has_potential (StateSolver::has_potential()) the
 /// state makes no J stationary.
 template <int dim>
-bool needs_solve(const response::Response<dim> &response, bool with_friction);
+bool needs_solve(const response::Response<dim> &response, bool has_potential);
 
 /// Return the partial derivatives of all responses. Collective.
 template <int dim>

@@ -134,6 +134,13 @@ struct PointState
   dealii::Tensor<1, 3>   rotation, moment; ///< rotation [rad]
 };
 
+/// Tension and shortening of a bolt.
+struct BoltState
+{
+  std::string name;
+  double      tension = 0., shortening = 0.; ///< [force], [length]
+};
+
 /// Sums over the contact rows of one pair.
 template <int dim>
 struct PairState
@@ -222,8 +229,8 @@ struct ContactState
   typename mesh::Surface<dim>::Field surface_positions, surface_displacement;
   feti::PrimalVectors                u; ///< per subdomain
   qp::DualSolution                   dual;
-  /// slips of the tangential rows from the start of a sequence of load steps: before this step, or
-  /// empty in the first step, and after it [length]
+  /// slips of the tangential rows from the start of a sequence of load steps, then the motions of
+  /// the reference points: before this step, or empty in the first step, and after it [length]
   std::vector<double>         slips_before, slips;
   std::vector<ContactPoint>   contact;
   std::vector<PairState<dim>> pairs;
@@ -232,6 +239,7 @@ struct ContactState
   std::vector<ContactPoint>    tied;
   std::vector<TieState<dim>>   ties;   ///< per tied pair
   std::vector<PointState<dim>> points; ///< per reference point
+  std::vector<BoltState>       bolts;
   /// reactions of the supports on the bodies, about the means of their nodes; for sections of
   /// revolution, the force along the axis
   std::vector<Reaction<dim>>   reactions;

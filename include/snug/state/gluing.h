@@ -74,8 +74,14 @@ public:
                                              const RowCoefficients<dim> &derivative,
                                              unsigned int                load_case) const;
 
-  /// Add @p values of the tangential rows [length] to @p g of the owned rows.
-  void add_to_tangents(const std::vector<double> &values, qp::MultiVector &g) const;
+  /// Add the end of the load step before (ContactState::slips) to @p g of the owned rows: to the
+  /// tangential rows, and to the rows of motions that the load case locks.
+  void
+  add_step(const std::vector<double> &before, unsigned int load_case, qp::MultiVector &g) const;
+
+  /// Return the places of the owned rows of locked motions, with their places in
+  /// ContactState::slips.
+  std::vector<std::pair<unsigned int, unsigned int>> locked_rows(unsigned int load_case) const;
 
   /// Return the gap of contact row @p i in a load case, minus the part that the displacements held
   /// at its nodes take [length].

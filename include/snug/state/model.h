@@ -101,9 +101,11 @@ struct PointLoad
 {
   std::vector<double>                wrench; ///< force, moment about the point; empty: none
   std::vector<std::optional<double>> held;   ///< [length, rad]; empty: nothing is held
+  /// held at the motion at the end of the load case before, plus held; empty: nothing is locked
+  std::vector<bool> locked = {};
 };
 
-/// A point with a rigid motion that faces and obstacles follow, see ReferencePoints.
+/// A point with a rigid motion that faces and obstacles follow, or a bolt, see ReferencePoints.
 template <int dim>
 struct ReferencePoint
 {
@@ -111,7 +113,10 @@ struct ReferencePoint
   dealii::Tensor<1, dim>         place; ///< p; does not move with the design [length]
   std::vector<contact::Boundary> faces;
   std::vector<std::string>       obstacles;
+  std::vector<contact::Boundary> cut;         ///< of a bolt: the boundaries of its tied pair
   double                         length = 1.; ///< L; StateProblem sets it
+
+  bool is_bolt() const { return !cut.empty(); }
 };
 
 template <int dim>

@@ -3,6 +3,7 @@
 
 #include <snug/mesh/tearing.h>
 #include <snug/state/gluing_rows.h>
+#include <snug/state/ties.h>
 
 namespace snug::state {
 /**
@@ -14,7 +15,12 @@ namespace snug::state {
  * has the rows u_a - R(x_a) q = 0. A contact row of an obstacle that follows the point gets the
  * motion of the obstacle at the slave nodes, c . (u - R q) <= gap. Both have the entries
  *   -sum_a R(x_a)' c_a
- * on q. All data are replicated.
+ * on q.
+ *
+ * A bolt is cut across its shank, and both sides of the cut are tied. The rows of the tied pair get
+ * the same entries with the nodes a of the slave side, where R q = q_1 n with the mean normal n of
+ * this side. The other unknowns are held. The side moves by q_1 into the other one, which shortens
+ * the bolt, and the force on q_1 is its tension. All data are replicated.
  */
 template <int dim>
 class ReferencePoints
@@ -22,13 +28,21 @@ class ReferencePoints
 public:
   using Field = typename mesh::Surface<dim>::Field;
 
-  /// Find the nodes of the faces that follow the points of @p model. References must outlive this
-  /// object. @throws InputError where nodes follow two points.
+  /// Find the nodes of the faces that follow the points of @p model, and the cuts of bolts at @p
+  /// positions. References must outlive this object. @throws InputError where nodes follow two
+  /// points.
   ReferencePoints(const mesh::BodyMesh<dim> &mesh,
                   const mesh::Surface<dim>  &surface,
-                  const Model<dim>          &model);
+                  const Model<dim>          &model,
+                  const Ties<dim>           &ties,
+                  const Field               &positions);
 
   bool empty() const { return model.points.empty(); }
+
+  /// Return @p displacement without the motions @p q of bolts, with which tied sides agree.
+  Field without_bolts(const Field                            &positions,
+                      Field                                   displacement,
+                      const std::vector<std::vector<double>> &q) const;
 
   /// Return whether an obstacle or a boundary of a body follows a point.
   bool moves(const std::string &obstacle) const;
@@ -73,10 +87,29 @@ private:
   /// Return R(x) of a point.
   qp::MultiVector motions(unsigned int point, const dealii::Tensor<1, dim> &x) const;
 
+  /// Return whether a row with entries on the motion of a point takes the motion of a node of it.
+  bool moves_node(unsigned int point, unsigned int node) const
+  {
+    return !model.points[point].is_bolt() || cuts[point].moved[node];
+  }
+
+  void find_followers();
+  void find_cut(unsigned int point, const Field &positions);
+
+  /// Slave side of the cut of a bolt.
+  struct Cut
+  {
+    std::vector<bool>      pairs; ///< pairs of the tied contact
+    std::vector<bool>      moved; ///< surface nodes
+    dealii::Tensor<1, dim> axis;  ///< n
+  };
+
   const mesh::BodyMesh<dim>                         &mesh;
   const Model<dim>                                  &model;
   const mesh::Surface<dim>                          &surface;
+  const Ties<dim>                                   &ties;
   std::vector<std::pair<unsigned int, unsigned int>> nodes; ///< (surface node, point)
+  std::vector<Cut>                                   cuts;  ///< by point; empty: no bolt
 };
 
 /// Return @p tearing with one subdomain without cells for each reference point of @p model, on the

@@ -84,6 +84,9 @@ public:
   const Gluing<dim> &gluing(unsigned int load_case) const { return *problem->of(load_case).gluing; }
   /// Return whether contacts of any position have friction.
   bool has_friction() const;
+  /// Return whether the states minimize a potential: there is no friction, and no load step locks a
+  /// motion of the step before.
+  bool has_potential() const;
   /// Return the motion of a body to the position of the load case.
   geometry::RigidMotion<dim> motion(unsigned int load_case, unsigned int body) const
   {
