@@ -6,6 +6,10 @@
 
 namespace snug::feti {
 namespace {
+/// Part of the diagonal that is added to W for contact rows beside ties. Two of these rows depend on
+/// each other and on ties where the edge of two tied bodies lies opposite to a slave node.
+const double beside_ties_shift = 1e-3;
+
 /// Flag the contact rows, and the rows coupled to a contact row by a chain of shared unknowns.
 std::vector<bool> coupled_to_contact(const qp::RowSet                             &contact_rows,
                                      const std::vector<std::vector<unsigned int>> &rows_of_unknown,
@@ -49,6 +53,9 @@ void solve_group(const RowGramStructure::Group &group,
 
 RowGramStructure::RowGramStructure(const RowLayout &layout, const SubdomainTable &table)
 {
+  if (qp::any(std::count(layout.tie_rows().begin(), layout.tie_rows().end(), 1) > 0,
+              layout.communicator()))
+    beside_ties = layout.contact_rows();
   const auto                                &start    = layout.entry_start();
   const auto                                &unknowns = layout.entry_unknowns();
   std::map<RowLayout::Unknown, unsigned int> index;
@@ -125,6 +132,12 @@ RowGram::RowGram(const RowGramStructure    &the_structure,
       auto &A                    = in_contact ? contact : of_fixed;
       A.values[A.position(i, i)] += ground[row];
     }
+  for (unsigned int row = 0; row < structure.beside_ties.size(); ++row)
+    if (structure.beside_ties[row])
+      {
+        const auto i = structure.place[row].second;
+        contact.values[contact.position(i, i)] *= 1. + beside_ties_shift;
+      }
   for (CsrMatrix *A : {&contact, &of_fixed})
     for (unsigned int i = 0; i < A->n_rows(); ++i)
       if (double &diagonal = A->values[A->position(i, i)]; diagonal == 0.)
