@@ -34,6 +34,19 @@ bool prefers_coarse_slave(const double size, const double modulus_ratio)
   return size > 1. / (1. - finer_by) && size * std::max(modulus_ratio, 1. / modulus_ratio) > alike;
 }
 
+/// Make the elastic side the slave of pairs with a rigid face. The rows of a rigid slave could
+/// depend on each other, because a coarse master has fewer nodes.
+void choose_elastic_slaves(std::vector<JoinedPair> &joined)
+{
+  for (JoinedPair &of : joined)
+    if (const double ratio = of.pair.modulus_ratio; ratio == 0. || std::isinf(ratio))
+      {
+        if (std::isinf(ratio))
+          of.swap_slave_master();
+        of.pair.parameters.slave = Slave::first;
+      }
+}
+
 /// Return the faces of both sides of a pair. The master side of an obstacle is empty.
 template <int dim>
 PairFaces sides_of(const mesh::Surface<dim> &surface, const Pair &pair)
@@ -117,6 +130,7 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
   // Store whether the sides of a pair of the scene are exchanged. The choice holds for all joined
   // pairs that contain this pair, because the force of the pair is the force on one side.
   std::map<unsigned int, bool> exchanged;
+  choose_elastic_slaves(joined);
   for (JoinedPair &of : joined)
     {
       Pair      &pair         = of.pair;
@@ -132,13 +146,6 @@ void Contact<dim>::choose_slaves(const Field &positions, const faces::HeldDirect
         exchange();
       bool may_exchange =
         pair.parameters.slave == Slave::finer && !pair.obstacle && known == of.parts.end();
-      if (may_exchange && (std::isinf(pair.modulus_ratio) || pair.modulus_ratio == 0.))
-        {
-          // The rows of a rigid slave could depend on each other, as a coarse master has fewer nodes.
-          if (std::isinf(pair.modulus_ratio))
-            exchange();
-          may_exchange = false;
-        }
       chosen.push_back(pair);
       const auto geometry_of_pair = [&]() {
         chosen.back() = pair;

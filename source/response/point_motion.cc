@@ -6,89 +6,59 @@
 
 namespace snug::response {
 namespace {
-/// Return the index of the reference point or bolt of a response.
-template <int dim>
-unsigned int find_reference_point(const state::StateSolver<dim> &solver,
-                                  const ResponseParameters      &parameters)
+/// An unknown of the motion of a reference point or of a bolt (state::ReferencePoints).
+struct Unknown
 {
-  const auto &points = solver.model().points;
-  const auto  found  = std::find_if(points.begin(), points.end(), [&](const auto &point) {
-    return point.name == (parameters.bolt.empty() ? parameters.reference_point : parameters.bolt);
+  unsigned int point, place;
+  double       length; ///< by which the unknown is multiplied in q
+};
+
+/// Return the unknown that a response measures. @throws InputError if there is none.
+template <int dim>
+Unknown unknown_of(const state::StateSolver<dim> &solver,
+                   const ResponseParameters      &parameters,
+                   const bool                     turns)
+{
+  const auto &points  = solver.model().points;
+  const bool  is_bolt = !parameters.bolt.empty();
+  const auto &name    = is_bolt ? parameters.bolt : parameters.reference_point;
+  const auto  found   = std::find_if(points.begin(), points.end(), [&](const auto &point) {
+    return point.name == name && point.is_bolt() == is_bolt;
   });
   if (found == points.end())
-    throw bad_entry(parameters.path("Reference point"), parameters.reference_point,
-                    "there is no such reference point");
-  return static_cast<unsigned int>(found - points.begin());
-}
-
-/// Return the place of the component in the motion q of a reference point (state::ReferencePoints).
-template <int dim>
-unsigned int unknown_of(const state::StateSolver<dim> &solver,
-                        const ResponseParameters      &parameters,
-                        const bool                     is_rotation)
-{
-  if (!parameters.bolt.empty())
-    return 0;
-  const unsigned int n = solver.mesh().idealization().n_rigid_motions();
-  const auto         c =
+    throw bad_entry(parameters.path(is_bolt ? "Bolt" : "Reference point"), name,
+                    "must be the name of one of the scene");
+  const auto p = static_cast<unsigned int>(found - points.begin());
+  if (is_bolt)
+    return {p, 0, 1.};
+  // 0, 1, 2 for x, y, z, and a large number for the normal
+  const auto c =
     static_cast<unsigned int>(parameters.component) - static_cast<unsigned int>(Component::x);
-  const bool exists = parameters.component != Component::normal && (n == 1 ? !is_rotation && c == 1
-                                                                    : dim == 3    ? true
-                                                                    : is_rotation ? c == 2
-                                                                                  : c < 2);
+  const bool is_axisymmetric = solver.mesh().idealization().is_axisymmetric();
+  const bool exists = is_axisymmetric ? !turns && c == 1 : dim == 2 && turns ? c == 2 : c < dim;
   if (!exists)
     throw bad_entry(parameters.path("Component"), to_text(parameters.component),
-                    std::string("is not a ") + (is_rotation ? "rotation" : "translation") +
+                    std::string("is not a ") + (turns ? "rotation" : "translation") +
                       " of a reference point of this model");
-  return n == 1 ? 0 : !is_rotation ? c : dim == 2 ? 2 : dim + c;
+  if (turns)
+    return {p, dim == 2 ? 2 : dim + c, found->length};
+  return {p, is_axisymmetric ? 0 : c, 1.};
 }
 
-std::vector<std::string> entries_of(const ResponseParameters &parameters)
-{
-  if (parameters.quantity.rfind("bolt", 0) == 0)
-    return {"Bolt"};
-  return {"Reference point", "Component"};
-}
-
-/// A component of the motion q of a reference point, or the shortening of a bolt.
+/// The parts that both responses have in common.
 template <int dim>
-class PointMotion : public Response<dim>
+class PointResponse : public Response<dim>
 {
 public:
-  PointMotion(const ResponseParameters &parameters, const bool is_rotation)
-    : parameters(parameters), is_rotation(is_rotation)
+  PointResponse(const ResponseParameters &parameters, const bool turns)
+    : parameters(parameters), turns(turns)
   {}
 
-  std::vector<std::string> entries() const override { return entries_of(parameters); }
-
-  void check(const state::StateSolver<dim> &solver) const override
+  std::vector<std::string> entries() const override
   {
-    find_reference_point(solver, parameters);
-    unknown_of(solver, parameters, is_rotation);
-  }
-
-  double value(const state::StateSolver<dim>  &solver,
-               const state::ContactState<dim> &state) const override
-  {
-    const auto p = find_reference_point(solver, parameters);
-    return state::point_motions(solver, state.u,
-                                0)[p][unknown_of(solver, parameters, is_rotation)] /
-           length(solver, p);
-  }
-
-  Partials<dim> partials(const state::StateSolver<dim> &solver,
-                         const state::ContactState<dim> & /*state*/) const override
-  {
-    const auto    p = find_reference_point(solver, parameters);
-    Partials<dim> result;
-    result.positions.resize(solver.mesh().n_points());
-    for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
-      {
-        result.u.emplace_back(solver.assemblers()[s]->n_dofs());
-        if (solver.tearing().subdomains[s].body == solver.mesh().n_bodies() + p)
-          result.u[s](unknown_of(solver, parameters, is_rotation)) = 1. / length(solver, p);
-      }
-    return result;
+    if (parameters.quantity.rfind("bolt", 0) == 0)
+      return {"Bolt"};
+    return {"Reference point", "Component"};
   }
 
   /// Return nothing, because J does not depend on u in the bodies.
@@ -98,40 +68,69 @@ public:
     return {};
   }
 
-private:
-  const ResponseParameters parameters;
-  const bool               is_rotation;
-
-  /// Return the length by which rotations are multiplied in q.
-  double length(const state::StateSolver<dim> &solver, const unsigned int p) const
+protected:
+  Unknown unknown(const state::StateSolver<dim> &solver) const
   {
-    return is_rotation ? solver.model().points[p].length : 1.;
+    return unknown_of(solver, parameters, turns);
+  }
+
+  const ResponseParameters parameters;
+  const bool               turns;
+};
+
+/// A translation or rotation of a reference point, or the shortening of a bolt.
+template <int dim>
+class PointMotion : public PointResponse<dim>
+{
+public:
+  using PointResponse<dim>::PointResponse;
+
+  void check(const state::StateSolver<dim> &solver) const override { this->unknown(solver); }
+
+  double value(const state::StateSolver<dim>  &solver,
+               const state::ContactState<dim> &state) const override
+  {
+    const auto of = this->unknown(solver);
+    return state::point_motions(solver, state.u, 0)[of.point][of.place] / of.length;
+  }
+
+  Partials<dim> partials(const state::StateSolver<dim> &solver,
+                         const state::ContactState<dim> & /*state*/) const override
+  {
+    const auto    of = this->unknown(solver);
+    Partials<dim> result;
+    result.positions.resize(solver.mesh().n_points());
+    for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
+      {
+        result.u.emplace_back(solver.assemblers()[s]->n_dofs());
+        if (solver.tearing().subdomains[s].body == solver.mesh().n_bodies() + of.point)
+          result.u[s](of.place) = 1. / of.length;
+      }
+    return result;
   }
 };
 
 /**
  * Force or moment of the supports of a reference point, or tension of a bolt. With the load w of
  * the point and the entries b_i of the rows on the unknown of the motion, equilibrium of the point
- * gives J = sum_i p_i b_i - w, for moments times the length by which rotations are multiplied.
+ * gives J = sum_i p_i b_i - w, for moments times the length by which rotations are multiplied. The
+ * tension of a bolt is the sum alone.
  */
 template <int dim>
-class PointReaction : public Response<dim>
+class PointReaction : public PointResponse<dim>
 {
 public:
-  PointReaction(const ResponseParameters &parameters, const bool is_moment)
-    : parameters(parameters), is_moment(is_moment)
-  {}
-
-  std::vector<std::string> entries() const override { return entries_of(parameters); }
+  using PointResponse<dim>::PointResponse;
 
   void check(const state::StateSolver<dim> &solver) const override
   {
-    const auto p       = find_reference_point(solver, parameters);
-    const auto k       = unknown_of(solver, parameters, is_moment);
-    const auto is_held = [&](const auto &load_case) { return load_case.points[p].held[k]; };
-    if (std::none_of(solver.model().load_cases.begin(), solver.model().load_cases.end(), is_held))
-      throw bad_entry(parameters.path("Component"), to_text(parameters.component),
-                      "is a component of '" + parameters.reference_point +
+    const auto  of    = this->unknown(solver);
+    const auto &cases = solver.model().load_cases;
+    if (this->parameters.bolt.empty() &&
+        std::none_of(cases.begin(), cases.end(),
+                     [&](const auto &c) { return c.points[of.point].held[of.place].has_value(); }))
+      throw bad_entry(this->parameters.path("Component"), to_text(this->parameters.component),
+                      "is a component of '" + this->parameters.reference_point +
                         "' that no support holds");
   }
 
@@ -139,11 +138,10 @@ public:
                const state::ContactState<dim> &state) const override
   {
     const auto forces = row_forces(solver, state);
-    const auto p      = find_reference_point(solver, parameters);
-    const auto k      = unknown_of(solver, parameters, is_moment);
+    const auto of     = this->unknown(solver);
     double     sum    = 0.;
-    if (parameters.bolt.empty())
-      sum -= solver.model().load_cases[state.load_case].points[p].wrench[k];
+    if (this->parameters.bolt.empty())
+      sum -= solver.model().load_cases[state.load_case].points[of.point].wrench[of.place];
     for (const auto &[row, factor] : factors(solver, state))
       sum += factor * forces[row];
     return sum;
@@ -152,6 +150,7 @@ public:
   Partials<dim> partials(const state::StateSolver<dim>  &solver,
                          const state::ContactState<dim> &state) const override
   {
+    const auto    of   = this->unknown(solver);
     const auto    rows = solver.rows(state.positions, state.load_case);
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
@@ -161,8 +160,7 @@ public:
     std::vector<std::vector<double>> unit(
       solver.model().points.size(),
       std::vector<double>(solver.mesh().idealization().n_rigid_motions(), 0.));
-    const auto p                                       = find_reference_point(solver, parameters);
-    unit[p][unknown_of(solver, parameters, is_moment)] = length(solver, p);
+    unit[of.point][of.place] = of.length;
     solver.surface().add_owned(solver.points().energy_gradient(state.surface_positions, unit,
                                                                row_forces(solver, state), rows,
                                                                solver.contact(state.load_case)),
@@ -170,21 +168,7 @@ public:
     return result;
   }
 
-  FieldDerivative<dim> field_derivative(const state::StateSolver<dim> &,
-                                        const state::ContactState<dim> &) const override
-  {
-    return {};
-  }
-
 private:
-  const ResponseParameters parameters;
-  const bool               is_moment;
-
-  double length(const state::StateSolver<dim> &solver, const unsigned int p) const
-  {
-    return is_moment ? solver.model().points[p].length : 1.;
-  }
-
   static std::vector<double> row_forces(const state::StateSolver<dim>  &solver,
                                         const state::ContactState<dim> &state)
   {
@@ -195,29 +179,27 @@ private:
   std::vector<std::pair<unsigned int, double>> factors(const state::StateSolver<dim>  &solver,
                                                        const state::ContactState<dim> &state) const
   {
-    const auto                                   p = find_reference_point(solver, parameters);
-    const auto                                   k = unknown_of(solver, parameters, is_moment);
+    const auto                                   of = this->unknown(solver);
     std::vector<std::pair<unsigned int, double>> result;
     for (const auto &entries : solver.rows(state.positions, state.load_case).points)
-      if (entries.point == p)
-        result.emplace_back(entries.row, length(solver, p) * entries.values[k]);
+      if (entries.point == of.point)
+        result.emplace_back(entries.row, of.length * entries.values[of.place]);
     return result;
   }
 };
 } // namespace
 
 template <int dim>
-std::unique_ptr<Response<dim>> point_motion(const ResponseParameters &parameters,
-                                            const bool                is_rotation)
+std::unique_ptr<Response<dim>> point_motion(const ResponseParameters &parameters, const bool turns)
 {
-  return std::make_unique<PointMotion<dim>>(parameters, is_rotation);
+  return std::make_unique<PointMotion<dim>>(parameters, turns);
 }
 
 template <int dim>
 std::unique_ptr<Response<dim>> point_reaction(const ResponseParameters &parameters,
-                                              const bool                is_moment)
+                                              const bool                turns)
 {
-  return std::make_unique<PointReaction<dim>>(parameters, is_moment);
+  return std::make_unique<PointReaction<dim>>(parameters, turns);
 }
 
 #define SNUG_INSTANTIATE(dim)                                                             \

@@ -82,14 +82,15 @@ std::unique_ptr<Response<dim>> reaction(const ResponseParameters &parameters);
 template <int dim>
 std::unique_ptr<Response<dim>> reaction_moment(const ResponseParameters &parameters);
 
-/// Return a component of the translation [length] or rotation [rad] of a reference point.
+/// Return a component of the translation [length] or, if it @p turns, of the rotation [rad] of a
+/// reference point; or the shortening of a bolt [length].
 template <int dim>
-std::unique_ptr<Response<dim>> point_motion(const ResponseParameters &parameters, bool is_rotation);
+std::unique_ptr<Response<dim>> point_motion(const ResponseParameters &parameters, bool turns);
 
 /// Return a component of the force [force] or of the moment about the point [force length] of the
-/// supports of a reference point.
+/// supports of a reference point; or the tension of a bolt [force].
 template <int dim>
-std::unique_ptr<Response<dim>> point_reaction(const ResponseParameters &parameters, bool is_moment);
+std::unique_ptr<Response<dim>> point_reaction(const ResponseParameters &parameters, bool turns);
 
 /**
  * Return the response J = (int sigma_vM^p dV / int dV)^(1/p) [force / length^2], p >= 1, over one
