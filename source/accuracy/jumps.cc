@@ -17,7 +17,7 @@ mesh::Field<dim> jump(const state::StateSolver<dim> &solver,
   for (unsigned int s = 0; s < torn.size(); ++s)
     {
       const auto &nodes = solver.tearing().subdomains[s].nodes;
-      for (unsigned int i = 0; i < torn[s].n_rows(); ++i)
+      for (unsigned int i = 0; i < dim * nodes.size(); ++i)
         sums[static_cast<std::size_t>(dim) * nodes[i / dim] + i % dim] +=
           dealii::Utilities::fixed_power<2>(torn[s](i, j) - continuous[s](i, j));
     }

@@ -17,7 +17,7 @@ nodal_forces(const ShapeProblem<dim> &problem, const typename mesh::BodyMesh<dim
   std::vector<double> values(dim * mesh.n_local_nodes());
   for (unsigned int s = 0; s < loads.size(); ++s)
     {
-      const auto &nodes = problem.tearing.subdomains[s].nodes;
+      const auto &nodes = problem.solver->tearing().subdomains[s].nodes;
       for (unsigned int i = 0; i < dim * nodes.size(); ++i)
         values[dim * nodes[i / dim] + i % dim] += loads[s](i);
     }

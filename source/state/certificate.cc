@@ -122,7 +122,8 @@ double largest_load_product(const feti::LoadedProblem &feti)
 
 /// Set w_i to 0 where it is round-off of B u - g, and lambda to 0 if all forces are round-off. Rows
 /// of B have lengths of about one, and the coarse problem spreads round-off over all rows.
-void set_round_off_to_zero(const feti::LoadedProblem &feti,
+/// @return whether all forces are round-off.
+bool set_round_off_to_zero(const feti::LoadedProblem &feti,
                            const feti::PrimalVectors &u,
                            qp::MultiVector           &w,
                            qp::MultiVector           &lambda)
@@ -147,6 +148,7 @@ void set_round_off_to_zero(const feti::LoadedProblem &feti,
       w(i) = 0.;
   if (is_unloaded)
     lambda = qp::MultiVector(lambda.n_rows());
+  return is_unloaded;
 }
 
 /// Set the errors of friction. @p length is the length by which forces deform the bodies.
@@ -206,8 +208,8 @@ Certificate certify(const feti::LoadedProblem &feti,
   w.add(-1., feti.g());
   // The length by which a spring is stretched is D lambda.
   feti.linearization().add_compliance(-1., all_lambda, w);
-  qp::MultiVector lambda = all_lambda;
-  set_round_off_to_zero(feti, u, w, lambda);
+  qp::MultiVector lambda      = all_lambda;
+  const bool      is_unloaded = set_round_off_to_zero(feti, u, w, lambda);
   // maxima of continuity, penetration, negative and positive contact force, and F_ii |lambda_i|
   double largest[5] = {0., 0., 0., 0., 0.};
   double sums[2]    = {0., 0.}; // lambda_I' w_I, u'Ku
@@ -240,10 +242,12 @@ Certificate certify(const feti::LoadedProblem &feti,
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
   // The size is a length by which forces deform the bodies. |u| would contain rigid motions,
   // however large.
-  const double size =
-    std::max(largest_product(feti, lambda, largest[4]), largest_load_product(feti));
-  Certificate certificate;
-  certificate.equilibrium       = equilibrium_error(feti, all_lambda, u);
+  const double of_loads = largest_load_product(feti);
+  const double size     = std::max(largest_product(feti, lambda, largest[4]), of_loads);
+  Certificate  certificate;
+  // Without loads, forces that are round-off have residuals of their own size.
+  if (!is_unloaded || of_loads > 0.)
+    certificate.equilibrium = equilibrium_error(feti, all_lambda, u);
   certificate.continuity        = relative(largest[0], size);
   certificate.penetration       = relative(largest[1], size);
   certificate.negative_pressure = relative(largest[2], largest[3]);
