@@ -196,6 +196,11 @@ std::string DeckBodies::face_name(const unsigned int b, const unsigned int face)
 {
   const Body &body = bodies[b];
   std::string name;
+  // Faces of a body without 'Boundary sets' have the names of their groups.
+  if (body.sets.empty())
+    for (const auto &[set, faces] : faces_of_set)
+      if (std::count(faces.begin(), faces.end(), sorted(body.outer[face])) > 0)
+        return set;
   for (unsigned int s = 0; s < body.sets.size(); ++s)
     if (body.faces[s].count(face) > 0)
       name += (name.empty() ? "" : " and ") + boundary_name(b, body.sets[s]);
@@ -218,14 +223,6 @@ std::optional<std::string> DeckBodies::boundary_at(const unsigned int b,
   const auto  found = body.face_at.find(node);
   if (found == body.face_at.end())
     return {};
-  // Faces of a body without 'Boundary sets' have the names of their groups.
-  if (body.sets.empty())
-    {
-      const auto corners = sorted(body.outer[found->second]);
-      for (const auto &[set, faces] : faces_of_set)
-        if (std::count(faces.begin(), faces.end(), corners) > 0)
-          return set;
-    }
   return face_name(b, found->second);
 }
 
@@ -257,6 +254,11 @@ std::set<unsigned int> DeckBodies::nodes_without_face(const std::string &set) co
   for (const auto &face : faces_of(set))
     for (const unsigned int node : nodes_of(face))
       left.erase(node);
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (faces_on(b, set).size() == bodies[b].outer.size())
+      for (const unsigned int e : bodies[b].elements)
+        for (const unsigned int node : nodes_of(corners_of(e)))
+          left.erase(node);
   return left;
 }
 } // namespace snug::deck

@@ -91,9 +91,18 @@ public:
     reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
       if (words.size() < 3)
         throw error_at_line(line, "a node or set, a component and a force are expected");
-      const auto   nodes     = sets.nodes(words[0], "", keyword.title, line);
+      auto         nodes     = sets.nodes(words[0], "", keyword.title, line);
       const auto   component = to_whole(words[1], line);
       const double force     = to_number(words[2], line) * reading.factor(keyword);
+      erase_if(nodes, [&](const unsigned int node) {
+        const auto found = reading.references.find({node, component - 1});
+        if (found == reading.references.end())
+          return false;
+        add(reading.current().reference_loads[found->second], {force, line, reading.n_steps});
+        return true;
+      });
+      if (nodes.empty())
+        return;
       if (component < 1 || component > dim)
         return reading.lacks(keyword, " of component " + words[1], line);
       if (component == 1 && reading.model.model == "axisymmetric")
@@ -103,12 +112,8 @@ public:
           const auto direction = reading.axes.direction(node, component - 1);
           for (unsigned int c = 0; c < dim; ++c)
             if (direction[c] != 0.)
-              {
-                auto &sum = reading.current().point_forces[{node, c}];
-                if (!sum.empty() && step_of(sum) < reading.n_steps)
-                  sum.clear();
-                sum.push_back({force * direction[c], line, reading.n_steps});
-              }
+              add(reading.current().point_forces[{node, c}],
+                  {force * direction[c], line, reading.n_steps});
         }
     });
   }
@@ -152,10 +157,21 @@ private:
     if (!is_new(keyword))
       return;
     if (keyword.name == "CLOAD")
-      return drop_earlier(reading.current().point_forces, reading.n_steps);
+      {
+        drop_earlier(reading.current().reference_loads, reading.n_steps);
+        return drop_earlier(reading.current().point_forces, reading.n_steps);
+      }
     drop_earlier(reading.current().pressures, reading.n_steps);
     drop_earlier(reading.current().tractions, reading.n_steps);
     drop_earlier(reading.current().gravities, reading.n_steps);
+  }
+
+  /// Add a force to those of its step, which replace those of earlier steps.
+  static void add(std::vector<DeckModel::Given> &sum, const DeckModel::Given &force)
+  {
+    if (!sum.empty() && step_of(sum) < force.step)
+      sum.clear();
+    sum.push_back(force);
   }
 
   /// Add a load of faces. Loads of the same faces in one step are added, and replace those of

@@ -1,17 +1,17 @@
 #include <snug/base/values.h>
+#include <snug/deck/entry.h>
 #include <snug/deck/keyword_reader.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/fitted_surface.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace snug::deck {
 using mesh_file::error_at_line;
 using mesh_file::Keyword;
 using mesh_file::keyword_error;
+using mesh_file::to_whole;
 using mesh_file::upper_case;
 using Words   = std::vector<std::string>;
 using Corners = DeckBodies::Corners;
@@ -21,29 +21,120 @@ namespace {
 /// few digits do.
 const double shape_tolerance = 1e-5;
 
-/// Read *RIGID BODY of rigid elements or of an analytical surface.
+/// Return the only node that the option "REF NODE" or "ROT NODE" of a keyword names.
+unsigned int
+one_node(const Keyword &keyword, const std::string &option, const mesh_file::DeckSets &sets)
+{
+  const auto word  = keyword.option(option.substr(0, 3) + "NODE");
+  const auto nodes = word.empty() ? Corners() : sets.nodes(word, "", keyword.title, keyword.line);
+  if (nodes.size() != 1)
+    throw keyword_error(keyword, keyword.title + " must have one " + option);
+  return nodes[0];
+}
+
+/// Add what follows a reference node. Nodes that are not those of whole faces are noted as lacking.
+void add_follower(Reading &reading, const Keyword &keyword, DeckModel::RigidBody follower)
+{
+  const auto node = follower.reference_node;
+  if (reading.bodies.body_at(node) || reading.axes.has(node))
+    return reading.lacks(keyword, " with a reference node on a body or with *TRANSFORM");
+  if (!follower.set.empty())
+    {
+      if (!reading.use(keyword, follower.set, keyword.line))
+        return;
+      if (!reading.bodies.nodes_without_face(follower.set).empty())
+        return reading.lacks(keyword, " of nodes that are not those of whole faces");
+      follower.bodies = reading.bodies.bodies_of(follower.set);
+    }
+  reading.model.rigid_bodies.push_back(follower);
+}
+
+/// Return the components, from 0, in the data lines "first, last" of a keyword, or all if there are
+/// no lines.
+std::set<unsigned int> components_of(const Reading &reading, const Keyword &keyword)
+{
+  std::set<unsigned int> result;
+  reading.text.for_each_line(keyword, [&](const Words &words, const unsigned long line) {
+    const auto first = to_whole(words[0], line);
+    const auto last  = words.size() > 1 && !words[1].empty() ? to_whole(words[1], line) : first;
+    if (first < 1 || last < first || last > 6)
+      throw error_at_line(line, "the first and the last component of " + keyword.title +
+                                  " must be numbers from 1 to 6 in ascending order");
+    for (auto c = first; c <= last; ++c)
+      result.insert(c - 1);
+  });
+  return result.empty() ? std::set<unsigned int>{0, 1, 2, 3, 4, 5} : result;
+}
+
+/// Read *COUPLING and the next keyword, which is *KINEMATIC or *DISTRIBUTING.
+void read_coupling(Reading &reading, const Keyword &coupling)
+{
+  const auto &keyword = &coupling == &reading.text.keywords().back() ? coupling : *(&coupling + 1);
+  if (keyword.name != "KINEMATIC" && keyword.name != "DISTRIBUTING")
+    throw keyword_error(coupling, "*COUPLING must be followed by *KINEMATIC or *DISTRIBUTING");
+  if (!coupling.has("SURFACE"))
+    throw keyword_error(coupling, "*COUPLING must have a SURFACE");
+  DeckModel::RigidBody follower{one_node(coupling, "REF NODE", reading.deck.sets), {}, "", 0};
+  follower.line            = keyword.line;
+  follower.set             = reading.surface(coupling.option("SURFACE"), coupling.line);
+  follower.is_distributing = keyword.name == "DISTRIBUTING";
+  follower.components      = components_of(reading, keyword);
+  if (keyword.has("WEIGHTINGMETHOD") && upper_case(keyword.option("WEIGHTINGMETHOD")) != "UNIFORM")
+    reading.lacks(keyword, " with weights by distance");
+  for (unsigned int c = 0; c < reading.bodies.dimension() && !follower.is_distributing; ++c)
+    if (follower.components.count(c) == 0)
+      return reading.lacks(keyword, " of some components only");
+  add_follower(reading, keyword, follower);
+}
+
+/// Require *COUPLING before *KINEMATIC or *DISTRIBUTING, which are read with it.
+void require_coupling(const Reading &reading, const Keyword &keyword)
+{
+  if (&keyword == &reading.text.keywords().front() || (&keyword - 1)->name != "COUPLING")
+    throw keyword_error(keyword, keyword.title + " must follow *COUPLING");
+}
+
+/// Read *RIGID BODY of nodes, cells, rigid elements or an analytical surface.
 void read_rigid_body(Reading &reading, const Keyword &keyword)
 {
-  const auto          &sets = reading.deck.sets;
-  DeckModel::RigidBody rigid{0, {}, upper_case(keyword.option("ANALYTICALSURFACE")), keyword.line};
-  const auto           nodes = keyword.has("REFNODE")
-                                 ? sets.nodes(keyword.option("REFNODE"), "", keyword.title, keyword.line)
-                                 : std::vector<unsigned int>();
-  if (nodes.size() != 1)
-    throw keyword_error(keyword, "*RIGID BODY must have one REF NODE");
-  rigid.reference_node = nodes[0];
+  const auto            &sets = reading.deck.sets;
+  DeckModel::RigidBody   rigid{one_node(keyword, "REF NODE", sets), {}, "", keyword.line};
+  auto                   nodes = rigid;
+  std::set<unsigned int> cells;
+  rigid.surface = upper_case(keyword.option("ANALYTICALSURFACE"));
   if (keyword.has("ELSET"))
     for (const unsigned int e :
          sets.elements(keyword.option("ELSET"), "", keyword.title, keyword.line))
       {
         const auto &element = reading.deck.mesh.elements[e];
-        if (mesh_file::dimension(element.shape) + 1 != reading.bodies.dimension())
-          return reading.lacks(keyword, " of cells");
-        rigid.faces.insert(geometry::sorted(element.corners));
+        if (mesh_file::dimension(element.shape) + 1 == reading.bodies.dimension())
+          rigid.faces.insert(geometry::sorted(element.corners));
+        else
+          cells.insert(e);
       }
-  if (rigid.faces.empty() && rigid.surface.empty())
-    return reading.lacks(keyword, " without rigid elements or an analytical surface");
-  reading.model.rigid_bodies.push_back(rigid);
+  std::size_t n = 0;
+  for (unsigned int b = 0; b < reading.bodies.all().size(); ++b)
+    if (const auto &elements = reading.bodies.all()[b].elements; cells.count(elements[0]) > 0)
+      {
+        rigid.bodies.push_back(b);
+        n += elements.size();
+      }
+  if (n != cells.size())
+    return reading.lacks(keyword, " of elements that are not those of whole bodies");
+  for (const std::string option : {"NSET", "PINNSET", "TIENSET"})
+    if (keyword.has(option))
+      {
+        const auto key = sets.find(sets.of_nodes, keyword.option(option), "");
+        if (key.empty())
+          throw keyword_error(keyword, "there is no node set '" + keyword.option(option) + "'");
+        nodes.set = sets.boundary_of_nodes(key);
+        add_follower(reading, keyword, nodes);
+      }
+  if (!rigid.faces.empty() || !rigid.surface.empty() || !rigid.bodies.empty())
+    add_follower(reading, keyword, rigid);
+  else if (nodes.set.empty() && cells.empty())
+    throw keyword_error(keyword,
+                        "*RIGID BODY must have an NSET, an ELSET or an ANALYTICAL SURFACE");
 }
 
 /// Return the keyword of the analytical surface @p word, or null.
@@ -57,21 +148,12 @@ const Keyword *analytical(const Reading &reading, const std::string &word)
   return nullptr;
 }
 
-/// Return a number with 12 digits, which drops the round-off of a fit, and without the sign of
-/// zero.
-double rounded(const double number)
-{
-  std::ostringstream text;
-  text << std::setprecision(12) << number;
-  return std::stod(text.str()) + 0.;
-}
-
 template <int dim>
 std::vector<double> numbers(const dealii::Tensor<1, dim> &v)
 {
   std::vector<double> result;
   for (unsigned int d = 0; d < dim; ++d)
-    result.push_back(rounded(std::abs(v[d]) < 1e-12 * v.norm() ? 0. : v[d]));
+    result.push_back(rounded(v[d], v.norm()));
   return result;
 }
 
@@ -197,6 +279,27 @@ std::optional<DeckModel::Obstacle> shape_of(const Reading              &reading,
 }
 } // namespace
 
+std::map<Freedom, Freedom> reference_freedoms(const mesh_file::DeckText &text,
+                                              const mesh_file::DeckSets &sets)
+{
+  std::map<Freedom, Freedom> freedoms;
+  for (const auto &keyword : text.keywords())
+    if (keyword.name == "RIGIDBODY" || keyword.name == "COUPLING")
+      {
+        const auto node      = one_node(keyword, "REF NODE", sets);
+        const bool is_split  = keyword.has("ROTNODE");
+        const auto rotations = is_split ? one_node(keyword, "ROT NODE", sets) : node;
+        if (is_split && rotations == node)
+          throw keyword_error(keyword, "the ROT NODE of *RIGID BODY must not be its REF NODE");
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            freedoms[{node, c}]                         = {node, c};
+            freedoms[{rotations, is_split ? c : c + 3}] = {node, c + 3};
+          }
+      }
+  return freedoms;
+}
+
 bool is_rigid_surface(const Reading &reading, const std::string &word)
 {
   const auto found = reading.deck.sets.spelling.find(upper_case(word));
@@ -244,8 +347,16 @@ std::optional<unsigned int> obstacle_of(Reading                    &reading,
 
 KeywordReadings rigid_readings(Reading &reading)
 {
+  const auto by = [&reading](const auto read) {
+    return [&reading, read](const Keyword &keyword) { read(reading, keyword); };
+  };
   return {{"RIGIDBODY",
-           {[&reading](const Keyword &keyword) { read_rigid_body(reading, keyword); },
-            {{"REFNODE", "ELSET", "ANALYTICALSURFACE"}, {}}}}};
+           {by(read_rigid_body),
+            {{"REFNODE", "ROTNODE", "NSET", "PINNSET", "TIENSET", "ELSET", "ANALYTICALSURFACE"},
+             {}},
+            false}},
+          {"COUPLING", {by(read_coupling), {{"REFNODE", "SURFACE", "CONSTRAINTNAME"}, {}}, false}},
+          {"KINEMATIC", {by(require_coupling)}},
+          {"DISTRIBUTING", {by(require_coupling), {{"WEIGHTINGMETHOD"}, {"COUPLING"}}}}};
 }
 } // namespace snug::deck

@@ -13,27 +13,12 @@ using mesh_file::upper_case;
 using Words = std::vector<std::string>;
 
 namespace {
-/// Return the reference nodes of all rigid bodies, which may follow their supports in the deck.
-std::set<unsigned int> reference_nodes(const Reading &reading)
-{
-  std::set<unsigned int> result;
-  for (const auto &keyword : reading.text.keywords())
-    if (keyword.name == "RIGIDBODY" && keyword.has("REFNODE"))
-      for (const unsigned int node :
-           reading.deck.sets.nodes(keyword.option("REFNODE"), "", keyword.title, keyword.line))
-        result.insert(node);
-  return result;
-}
-
 /// This class reads the supports of faces and nodes, and the motions of rigid bodies.
 class SupportReader
 {
 public:
   explicit SupportReader(Reading &reading)
-    : reading(reading)
-    , sets(reading.deck.sets)
-    , dim(reading.bodies.dimension())
-    , references(reference_nodes(reading))
+    : reading(reading), sets(reading.deck.sets), dim(reading.bodies.dimension())
   {}
 
   /// Read a line "node or set, first component, last component, value", or "set, ENCASTRE".
@@ -54,60 +39,42 @@ public:
       if (listed == sets.of_lines.end() && key.empty())
         throw error_at_line(line, "there is no node set '" + words[0] + "'");
       const auto set        = key.empty() ? listed->second[0] : sets.boundary_of_nodes(key);
-      const auto components = components_of(keyword, words, line);
-      if (is_motion(keyword, words, line))
+      auto       components = components_of(keyword, words, line);
+      const auto value = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
+      const DeckModel::Given given{value * reading.factor(keyword), line, reading.n_steps};
+      bool                   is_motion = true; // of reference nodes only
+      for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
+        {
+          is_motion = is_motion && reading.references.count({node, 0}) > 0;
+          for (const unsigned int c : components)
+            if (const auto of = reading.references.find({node, c}); of != reading.references.end())
+              reading.current().motions[of->second] = given;
+        }
+      if (is_motion || !known.emplace(set, Words(words.begin() + 1, words.end())).second)
         return;
-      if (!known.emplace(set, Words(words.begin() + 1, words.end())).second)
-        return;
-      const double given = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
-      hold(keyword, set, components, {given * reading.factor(keyword), line, reading.n_steps});
+      // Nodes of solids have no rotations (4 to 6), and nodes of a plane model no third component.
+      erase_if(components, [&](const auto c) { return c >= dim; });
+      hold(keyword, set, components, given);
     });
   }
 
 private:
-  Reading                     &reading;
-  const mesh_file::DeckSets   &sets;
-  const unsigned int           dim;
-  const std::set<unsigned int> references; ///< reference nodes of rigid bodies
+  Reading                   &reading;
+  const mesh_file::DeckSets &sets;
+  const unsigned int         dim;
 
-  /// Read a line of *BOUNDARY for the reference nodes of rigid bodies. Return whether it holds no
-  /// other nodes.
-  bool is_motion(const Keyword &keyword, const Words &words, const unsigned long line)
-  {
-    if (references.empty())
-      return false;
-    bool has_other_nodes = false;
-    for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
-      if (references.count(node) > 0)
-        {
-          // ENCASTRE and the like hold all components.
-          const bool   is_number = words[1].find_first_not_of("0123456789") == std::string::npos;
-          const auto   first     = is_number ? to_whole(words[1], line) : 1;
-          const auto   last      = !is_number ? 6
-                                   : words.size() > 2 && !words[2].empty() ? to_whole(words[2], line)
-                                                                           : first;
-          const double value =
-            words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
-          for (auto c = std::max(1ul, first); c <= std::min(6ul, last); ++c)
-            reading.current().motions[{node, c - 1}] = {value * reading.factor(keyword), line,
-                                                        reading.n_steps};
-        }
-      else
-        has_other_nodes = true;
-    return !has_other_nodes;
-  }
-
-  /// Return the components, from 0, of a line of *BOUNDARY that a model of solids has.
+  /// Return the components, from 0, of a line of *BOUNDARY, with rotations.
   std::vector<unsigned int>
   components_of(const Keyword &keyword, const Words &words, const unsigned long line)
   {
-    static const std::map<std::string, std::vector<unsigned int>> names = {
-      {"ENCASTRE", {0, 1, 2}}, {"PINNED", {0, 1, 2}}, {"XSYMM", {0}},     {"YSYMM", {1}},
-      {"ZSYMM", {2}},          {"XASYMM", {1, 2}},    {"YASYMM", {0, 2}}, {"ZASYMM", {0, 1}}};
+    static const std::map<std::string, std::string> names = {
+      {"ENCASTRE", "123456"}, {"PINNED", "123"}, {"XSYMM", "156"},  {"YSYMM", "246"},
+      {"ZSYMM", "345"},       {"XASYMM", "234"}, {"YASYMM", "135"}, {"ZASYMM", "126"}};
     const auto                named = names.find(upper_case(words[1]));
     std::vector<unsigned int> components;
     if (named != names.end())
-      components = named->second;
+      for (const char digit : named->second)
+        components.push_back(digit - '1');
     else
       {
         const auto first = to_whole(words[1], line);
@@ -120,10 +87,6 @@ private:
         for (auto c = first; c <= last; ++c)
           components.push_back(c - 1);
       }
-    // Nodes of solids have no rotations (4 to 6), and nodes of a plane model no third component.
-    components.erase(std::remove_if(components.begin(), components.end(),
-                                    [&](const auto c) { return c >= dim; }),
-                     components.end());
     return components;
   }
 
@@ -133,11 +96,13 @@ private:
             const std::vector<unsigned int> &components,
             const DeckModel::Given          &given)
   {
-    auto      &step           = reading.current();
-    auto       nodes          = reading.bodies.nodes_without_face(set);
-    const bool has_cell_nodes = !nodes.empty();
+    auto      &step    = reading.current();
+    auto       nodes   = reading.bodies.nodes_without_face(set);
+    const auto n_nodes = nodes.size();
     reading.bodies.use(set);
-    if (drop_inner(nodes, set))
+    for (auto node = nodes.begin(); node != nodes.end();)
+      node = reading.bodies.body_at(*node) ? std::next(node) : nodes.erase(node);
+    if (nodes.size() < n_nodes)
       reading.lacks(keyword, " of nodes inside of a body", given.line);
     if (set.find_first_of(",:;=#\\+") != std::string::npos || reading.bodies.use(set))
       {
@@ -173,29 +138,9 @@ private:
                                  " that are not those of whole faces; stresses there depend on the "
                                  "mesh",
                                given.line);
-    else if (!reading.bodies.use(set) && !has_cell_nodes)
+    else if (!reading.bodies.use(set) && n_nodes == 0)
       reading.remarks.not_needed(title_of(keyword) + " of nodes that belong to no cell",
                                  given.line);
-  }
-
-  /// Erase the nodes that lie on no outer face. Return whether their supports are needed: if all
-  /// faces of a body are held equally, they hold its inside as well.
-  bool drop_inner(std::set<unsigned int> &nodes, const std::string &set) const
-  {
-    bool is_whole = true;
-    for (const unsigned int b : reading.bodies.bodies_of(set))
-      is_whole =
-        is_whole && reading.bodies.faces_on(b, set).size() == reading.bodies.all()[b].outer.size();
-    bool is_needed = false;
-    for (auto node = nodes.begin(); node != nodes.end();)
-      if (reading.bodies.body_at(*node))
-        ++node;
-      else
-        {
-          is_needed = is_needed || !is_whole || reading.bodies.bodies_of(set).empty();
-          node      = nodes.erase(node);
-        }
-    return is_needed;
   }
 
   bool is_normal(const std::string &set, const unsigned int component) const

@@ -1,5 +1,4 @@
 #include <snug/base/values.h>
-#include <snug/deck/scene_loads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +38,7 @@ public:
         add_held_nodes(b);
         add_springs(b);
       }
-    for (const auto &obstacle : model.obstacles)
-      result.of_obstacles.push_back(displacement_of(model.rigid_bodies[obstacle.rigid_body]));
+    add_reference_points(model, bodies, steps, remarks, result);
     for (unsigned int s = 0; s < steps.size(); ++s)
       {
         std::vector<Entry> of_case;
@@ -105,21 +103,6 @@ private:
       for (const auto &boundary : bodies.boundaries(b, bodies.faces_on(b, given.set)))
         held[boundary][given.component] = &given;
     return held;
-  }
-
-  /// Add an item to an entry of a list, which is made if it is not there.
-  static void add_item(std::vector<Entry> &entries,
-                       const std::string  &name,
-                       const std::string  &item,
-                       const Lines        &lines)
-  {
-    auto entry = std::find_if(entries.begin(), entries.end(),
-                              [&](const Entry &other) { return other.name == name; });
-    if (entry == entries.end())
-      entry = entries.insert(entries.end(), {name});
-    entry->add(item);
-    for (const auto line : lines)
-      entry->add_line(line);
   }
 
   /// Add supports, and prescribed displacements of the steps.
@@ -241,42 +224,6 @@ private:
         }
     for (const auto &[boundary, sum] : sums)
       add_item(entries, name, full_name(b, boundary) + ": " + to_text(sum, ' '), lines[boundary]);
-  }
-
-  /// Return the displacement of a rigid body, whose reference node must be held without rotations,
-  /// and equally in all steps.
-  Entry displacement_of(const DeckModel::RigidBody &rigid)
-  {
-    const unsigned int  dim = bodies.dimension();
-    std::vector<double> displacement(dim, 0.);
-    Entry               entry{"Displacement"};
-    const auto          needed = [&](const unsigned int c) {
-      return dim == 3 || c < 2 || (c == 5 && model.model != "axisymmetric");
-    };
-    for (const auto *step : steps)
-      for (unsigned int c = 0; c < 6; ++c)
-        {
-          const auto found = step->motions.find({rigid.reference_node, c});
-          if (!needed(c))
-            continue;
-          if (found == step->motions.end())
-            {
-              remarks.lacks("rigid body", "*RIGID BODY that is not held in all components",
-                            rigid.line);
-              return entry;
-            }
-          const double value = found->second.value;
-          if (c >= dim && value != 0.)
-            remarks.lacks("rigid body", "*RIGID BODY that is turned", found->second.line);
-          if (c < dim && step != steps.front() && value != displacement[c])
-            remarks.lacks("step", "*BOUNDARY of a rigid body that moves from step to step",
-                          found->second.line);
-          if (c < dim)
-            displacement[c] = value;
-          entry.add_line(found->second.line);
-        }
-    entry.value = to_text(displacement, ' ');
-    return entry;
   }
 
   void add_point_forces(const Step &step, const unsigned int b, std::vector<Entry> &entries) const

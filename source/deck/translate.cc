@@ -49,11 +49,23 @@ public:
       names.push_back(obstacle.name);
     if (!names.empty())
       write("set Obstacles = " + to_text(names));
+    names.clear();
+    for (const auto &point : loads.points)
+      names.push_back(point.first);
+    if (!names.empty())
+      write("set Reference points = " + to_text(names));
     for (const auto *material : used)
       write_material(*material);
     for (unsigned int b = 0; b < bodies.all().size(); ++b)
       write_body(b);
     write_obstacles();
+    for (const auto &[name, entries] : loads.points)
+      {
+        write("\nsubsection Reference point " + name);
+        for (const auto &entry : entries)
+          write_entry(entry);
+        write("end");
+      }
     write_contacts();
     write_cases();
     return out.str();
@@ -204,6 +216,15 @@ private:
            side(of.master_body, bodies.faces_on(of.master_body, of.master));
   }
 
+  /// Return whether faces of the slave side follow a reference point.
+  bool has_rigid_slave(const DeckModel::Contact &contact) const
+  {
+    return std::any_of(model.rigid_bodies.begin(), model.rigid_bodies.end(), [&](const auto &of) {
+      return !of.is_distributing && bodies.have_common_faces(of.set, contact.slave) &&
+             std::count(of.bodies.begin(), of.bodies.end(), contact.slave_body) > 0;
+    });
+  }
+
   void write_contacts()
   {
     if (model.contacts.empty())
@@ -224,7 +245,7 @@ private:
           write_entry({"Law", "tied"});
         if (contact.reach > 0.)
           write_entry({"Search distance", to_text(contact.reach)});
-        if (!contact.is_general && !contact.obstacle)
+        if (!contact.is_general && !contact.obstacle && !has_rigid_slave(contact))
           write_entry({"Slave", "first"});
         if (contact.gap != 0.)
           write_entry({"Gap", to_text(contact.gap)});

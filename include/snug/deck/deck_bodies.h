@@ -82,8 +82,8 @@ public:
   /// Return the corners of a face, and the nodes in the middles of its edges and of the face.
   std::vector<unsigned int> nodes_of(const Corners &face) const;
 
-  /// Return the nodes of the optional boundary @p set that are nodes of cells, but lie on none of
-  /// its faces.
+  /// Return the nodes of the optional boundary @p set that are nodes of cells, but neither lie on
+  /// one of its faces nor in a body whose faces all belong to it.
   std::set<unsigned int> nodes_without_face(const std::string &set) const;
 
 private:

@@ -70,6 +70,8 @@ struct DeckModel
     std::map<unsigned int, Given>                                       temperatures; ///< by node
     /// reference node and component, 0 to 5 with rotations -> displacement of a rigid body
     std::map<std::pair<unsigned int, unsigned int>, Given> motions;
+    /// reference node and component -> the forces and moments there
+    std::map<std::pair<unsigned int, unsigned int>, std::vector<Given>> reference_loads;
   };
 
   /// A spring between a node and the ground, along an axis [force / length].
@@ -87,13 +89,18 @@ struct DeckModel
     bool        is_tied  = false; ///< PRESSURE-OVERCLOSURE=TIED
   };
 
-  /// A rigid body: faces that belong to no cell, or an analytical surface, and its reference node.
+  /// Followers of a reference node: a rigid body of faces that belong to no cell or of an
+  /// analytical surface, or faces of bodies, which are rigid or carry the loads of the node.
   struct RigidBody
   {
     unsigned int                        reference_node;
     std::set<std::vector<unsigned int>> faces;   ///< sorted corners
     std::string                         surface; ///< name of the analytical surface, or ""
     unsigned long                       line;
+    std::string                         set    = {}; ///< of faces; "": all faces of the bodies
+    std::vector<unsigned int>           bodies = {}; ///< with such faces
+    bool                                is_distributing = false;
+    std::set<unsigned int>              components      = {}; ///< of distributed loads, 0 to 5
   };
 
   /// A rigid body as an obstacle. Vectors have one number per dimension.

@@ -25,21 +25,30 @@ struct KeywordReading
 
 using KeywordReadings = std::map<std::string, KeywordReading>; ///< by Keyword::name
 
+/// A node and its component: 0, 1, 2 for translations, 3, 4, 5 for rotations.
+using Freedom = std::pair<unsigned int, unsigned int>;
+
+/// Return the degrees of freedom of all reference nodes. Keys are those of the deck, where the
+/// components 1 to 3 of a ROT NODE are the rotations of its REF NODE. @throws InputError.
+std::map<Freedom, Freedom> reference_freedoms(const mesh_file::DeckText &text,
+                                              const mesh_file::DeckSets &sets);
+
 /// The deck, and the model that the readers of keywords make from it.
 struct Reading
 {
   using Keyword = mesh_file::Keyword;
 
-  const mesh_file::DeckText &text;
-  const mesh_file::DeckMesh &deck;
-  DeckBodies                &bodies;
-  Remarks                   &remarks;
-  const Amplitudes           amplitudes;
-  const LocalAxes            axes;
-  DeckModel                  model    = {};
-  unsigned int               n_steps  = 0;
-  bool                       in_step  = false;
-  std::vector<std::string>   prefixes = {""}; ///< of the instances of the current part
+  const mesh_file::DeckText       &text;
+  const mesh_file::DeckMesh       &deck;
+  DeckBodies                      &bodies;
+  Remarks                         &remarks;
+  const Amplitudes                 amplitudes;
+  const LocalAxes                  axes;
+  const std::map<Freedom, Freedom> references = reference_freedoms(text, deck.sets);
+  DeckModel                        model      = {};
+  unsigned int                     n_steps    = 0;
+  bool                             in_step    = false;
+  std::vector<std::string>         prefixes   = {""}; ///< of the instances of the current part
 
   /// Return the supports and loads of the step that is read, or those before the first step.
   DeckModel::Step &current() { return n_steps == 0 ? model.initial : model.steps.back(); }
@@ -81,7 +90,7 @@ KeywordReadings support_readings(Reading &reading);
 /// Return the readings of steps and loads.
 KeywordReadings load_readings(Reading &reading);
 
-/// Return the readings of rigid bodies.
+/// Return the readings of rigid bodies and couplings.
 KeywordReadings rigid_readings(Reading &reading);
 
 /// Return whether the surface @p word consists of faces of rigid bodies, or is analytical.

@@ -15,10 +15,11 @@ struct SceneLoads
     std::vector<Entry> entries;
   };
 
-  std::vector<std::vector<Entry>> of_bodies;    ///< entries of each body
-  std::vector<Entry>              of_obstacles; ///< displacements
-  std::string                     gravity;      ///< of the scene
-  std::vector<LoadCase>           cases;        ///< of a deck with several steps
+  std::vector<std::vector<Entry>>                         of_bodies;    ///< entries of each body
+  std::vector<Entry>                                      of_obstacles; ///< displacements
+  std::vector<std::pair<std::string, std::vector<Entry>>> points;       ///< reference points
+  std::string                                             gravity;      ///< of the scene
+  std::vector<LoadCase>                                   cases; ///< of a deck with several steps
 };
 
 /**
@@ -27,6 +28,15 @@ struct SceneLoads
  * Parts of the model without an entry are noted in @p remarks.
  */
 SceneLoads scene_loads(const DeckModel &model, const DeckBodies &bodies, Remarks &remarks);
+
+/// Add the motions and loads of reference nodes to @p loads. A force F and a moment M at the node p
+/// of a distributing coupling are 'Force' F and 'Moment' M + (p - c) x F of a boundary with
+/// centroid c.
+void add_reference_points(const DeckModel                            &model,
+                          const DeckBodies                           &bodies,
+                          const std::vector<const DeckModel::Step *> &steps,
+                          Remarks                                    &remarks,
+                          SceneLoads                                 &loads);
 } // namespace snug::deck
 
 #endif

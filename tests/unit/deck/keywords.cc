@@ -232,12 +232,6 @@ TEST(DeckKeywords, RigidSurfacesAreObstacles)
   EXPECT_TRUE(held.lacking.empty());
   EXPECT_EQ(scene_of(held, both).bodies[0].supports,
             (std::map<std::string, std::string>{{"low", "xy"}}));
-  // A rigid body that a force moves, or that turns, has no counterpart.
-  EXPECT_TRUE(lists(deck::translate(squares(ground, "*BOUNDARY\n199, 1, 1\n"), "deck.inp"),
-                    "*RIGID BODY that is not held in all components"));
-  EXPECT_TRUE(
-    lists(deck::translate(squares(ground, "*BOUNDARY\n199, 1, 5\n199, 6, 6, .1\n"), "deck.inp"),
-          "*RIGID BODY that is turned"));
 }
 
 TEST(DeckKeywords, AnalyticalSurfacesAreLinesOrCircles)
