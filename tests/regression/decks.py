@@ -75,6 +75,8 @@ LACKING = [
     (PAIR, PAIR + "\n*TIE, NAME=T, MULTISTAGE\nSSLAVE, SMASTER", "tie", ["option MULTISTAGE"]),
     (PAIR, PAIR + "\n*EQUATION\n2\n1,1,1.,2,1,-1.", "equation", ["*EQUATION"]),
     (PAIR, PAIR + "\n*RIGID BODY, NSET=NFIX, REF NODE=1", "rigid body", ["*RIGID BODY"]),
+    (PAIR, PAIR + "\n*NODE\n900, 0., 0., 9.\n*COUPLING, REF NODE=900, SURFACE=SSLAVE\n*KINEMATIC\n3",
+     "kinematic", ["*KINEMATIC of some components only"]),
     (PAIR, PAIR + "\n*ELEMENT, TYPE=B31, ELSET=BEAM\n901, 1, 2", "element", ["of type B31"]),
     (PAIR, PAIR + "\n*BEAM SECTION, ELSET=ELOW, MATERIAL=EL\n1., 1.", "beam section", ["*BEAM"]),
     ("*ELASTIC\n1000, .3", "*ELASTIC\n1000, .3\n*PLASTIC\n5., 0.", "plastic", ["*PLASTIC"])]
@@ -144,6 +146,8 @@ WRONG = [
     ("** two blocks", "two blocks", ["a deck of Abaqus"]),
     ("*ELEMENT, TYPE=C3D8", "*ELEMENT, TYPE=C3D9", ["element type 'C3D9'"]),
     ("*STEP, NLGEOM", "*INCLUDE, INPUT=more.inp\n*STEP", ["more.inp"]),
+    ("*STEP, NLGEOM", "*COUPLING, REF NODE=1\n*KINEMATIC\n*STEP", ["must have a SURFACE"]),
+    ("*STEP, NLGEOM", "*DISTRIBUTING\n*STEP", ["*DISTRIBUTING must follow *COUPLING"]),
     ("*NODE, NSET=NALL", "*INSTANCE, NAME=a, PART=b\n*NODE, NSET=NALL", ["has no *END"]),
     ("*NODE, NSET=NALL", "*PART, NAME=b\n*PART, NAME=c\n*NODE, NSET=NALL", ["more than one part"])]
 
