@@ -160,7 +160,7 @@ public:
         check_same(adjoint[i], direct[i], difference_step * expected[i].round_off);
         check_slope(adjoint[i], step, expected[i], difference_tolerance);
       }
-    if (!sensitivity::needs_solve(*problem.objective, problem.solver->has_friction()))
+    if (!sensitivity::needs_solve(*problem.objective, problem.solver->has_potential()))
       check_slope(gradients(states, sensitivity::Method::energy, false)[0], step, expected[0],
                   energy_tolerance);
   }
