@@ -130,6 +130,25 @@ class Ties(unittest.TestCase):
                 known = known or found
                 self.assertAlmostEqual(found / known, 1., delta=1e-9)
 
+    def test_contact_across_the_edge_of_a_tie(self):
+        """A block presses on two tied bodies as on one, also where its nodes lie above their edge."""
+        for dim, degree in ((2, 1), (2, 2), (3, 1)):
+            top = block([.5, 0., 1.][:dim - 1] + [1.], [4] * dim, Pressure="top: 10", Supports=(
+                "left: x" if dim == 2 else "left: x, front: y"))
+            scene = {"Dimension": dim, "Bodies": ["a", "s"], "Body s": top,
+                     "Body a": block([0.] * dim, [8] + [4] * (dim - 1), **{
+                         "Box size": [2.] + [1.] * (dim - 1), "Supports": "foot: " + AXES[:dim],
+                         "Boundary formulas": "foot: bottom & 1 - x"}),
+                     "Contact": {"Pairs": "s.bottom: a.top"}}
+            entries = {"Element degree": degree}
+            expected = energy(scene, **entries)
+            scene.update({"Bodies": ["a", "b", "s"],
+                          "Body a": block([0.] * dim, [4] * dim, Supports="bottom: " + AXES[:dim]),
+                          "Body b": block([1.] + [0.] * (dim - 1), [4] * dim),
+                          "Contact": {"Pairs": "s.bottom: a.top, s.bottom: b.top, a.right: b.left"},
+                          "Pair a.right: b.left": {"Law": "tied"}})
+            self.assertAlmostEqual(energy(scene, **entries) / expected, 1., delta=1e-9)
+
     def test_supports_that_part_a_tie(self):
         scene = cantilever([3, 6, 3])
         scene["Body left"]["Displacement"] = "front: y = 0"
