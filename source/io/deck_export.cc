@@ -52,6 +52,8 @@ public:
       left_out.push_back("'Position' of load case '" + model.name + "'");
     if (!solver.model().springs.empty())
       left_out.push_back("springs");
+    if (!solver.model().points.empty())
+      left_out.push_back("reference points and bolts");
     if (is_heated())
       left_out.push_back("temperatures, instead of which it has the forces of the thermal strains");
   }

@@ -329,7 +329,8 @@ void print(const Scene &scene, std::ostream &out)
 Entries reference_entries(Scene &scene)
 {
   std::vector<Statement> names;
-  for (const auto *entry : {"Bodies", "Materials", "Obstacles", "Load cases", "Responses"})
+  for (const auto *entry :
+       {"Bodies", "Materials", "Obstacles", "Reference points", "Bolts", "Load cases", "Responses"})
     names.push_back({"", entry, "NAME", {}});
   make_named(names, scene);
   scene.contact.pairs.push_back({"SLAVE", "MASTER", {}});

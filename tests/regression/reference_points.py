@@ -189,6 +189,57 @@ class ReferencePoints(unittest.TestCase):
         with self.assertRaisesRegex(snug.DesignFailed, "not held against its load along"):
             evaluate(scene)
 
+    def test_wrong_models(self):
+        tool, ball = "Reference point tool", {"Obstacles": ["ball"], "Obstacle ball": {
+            "Shape": "sphere", "Point": [0., 3.]}}
+        faces = {"Faces": ["block.top"]}
+        for change, words in (
+                ({tool: {}}, "at least one face"),
+                ({tool: {"Faces": ["block.up"]}}, "not a boundary"),
+                ({tool: {"Faces": ["blok.top"]}}, "no body 'blok'"),
+                ({tool: {"Faces": ["block.top", "block.top"]}}, "only once"),
+                ({tool: {**faces, "Obstacles": ["ball"]}}, "no obstacle 'ball'"),
+                ({tool: {"Faces": ["base.bottom"]}}, "held by supports"),
+                ({tool: {**faces, "Supports": ["z"]}}, "components are x, y, rz"),
+                ({tool: {**faces, "Supports": ["x", "x"]}}, "held twice"),
+                ({tool: {**faces, "Supports": ["x"], "Displacement": ["x = 1"]}}, "held twice"),
+                ({tool: {**faces, "Displacement": ["x"]}}, "component = number"),
+                ({tool: {**faces, "Displacement": ["x = y"]}}, "component = number"),
+                ({tool: {**faces, "Force": [1., 2., 3.]}}, "2 numbers|2 components"),
+                ({tool: {**faces, "Moment": [1., 2.]}}, "1 number"),
+                ({tool: {**faces, "Point": [1., 2., 3.]}}, "2 "),
+                ({"Reference points": ["tool", "other"], "Reference point other": faces},
+                 "one point only"),
+                ({"Reference points": ["tool", "tool"]}, "twice"),
+                ({**ball, tool: {"Obstacles": ["ball"]}, "Obstacle ball": {
+                    "Displacement": [0., 1.]}}, "follows 'tool'"),
+                ({tool: {"Faces": ["block.bottom"]}, "Reference points": ["tool", "low"],
+                  "Reference point low": {"Faces": ["base.top"]}}, "rigid"),
+                ({"Contact": {"Pairs": "block.bottom: base.top", "Slave": "first"},
+                  tool: {"Faces": ["block.bottom"]}}, "must be finer"),
+                ({"Load cases": ["a"], "Load case a": {"Force": "tol: 0 1"}}, "body.boundary"),
+                ({"Load cases": ["a"], "Load case a": {"Force": "tool: 0 1 2"}}, "2 components"),
+                ({"Load cases": ["a"], "Load case a": {"Displacement": "tool: normal = 1"}},
+                 "not a component"),
+                ({"Load cases": ["a"], "Load case a": {"Pressure": "tool: 1"}}, "body.boundary"),
+                ({"Load cases": ["a"], "Load case a": {"Position": "block: rotate z 3"}},
+                 "must not move 'block'"),
+                ({"Responses": ["r"], "Response r": {"Quantity": "displacement", "Component": "x",
+                                                     "Reference point": "tol"}},
+                 "no such reference point"),
+                ({"Responses": ["r"], "Response r": {"Quantity": "rotation", "Component": "x",
+                                                     "Reference point": "tool"}}, "not a rotation"),
+                ({"Responses": ["r"], "Response r": {"Quantity": "reaction", "Component": "x",
+                                                     "Reference point": "tool"}}, "no support"),
+                ({"Responses": ["r"], "Response r": {
+                    "Quantity": "displacement", "Component": "x", "Reference point": "tool",
+                    "Face": "block.top"}}, "left out")):
+            with self.subTest(words=words), self.assertRaisesRegex(snug.InputError, words), \
+                    tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder, "model.json")
+                file.write_text(json.dumps({**punch(2), **change}), encoding="utf-8")
+                snug.Model(file).close()
+
     def test_supports_beside_a_face(self):
         """Nodes that supports hold must follow the point all the same."""
         scene = punch(3, held=[0., 0., -.01, 0., 0., 0.])
