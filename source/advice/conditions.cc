@@ -257,10 +257,10 @@ void Conditions<dim>::add_contact(const Place<dim> &at, PointData<dim> &data) co
   const auto is_tied = [&](const auto &tie) {
     return contact::is_on(at, tie.slave) || contact::is_on(at, tie.master);
   };
-  const auto  &ties   = input.model().ties;
-  const double n_ties = static_cast<double>(std::count_if(ties.begin(), ties.end(), is_tied));
-  double n_pairs = 0., n_obstacles = 0., gap = 0., distance = 0.;
-  Vector normal, motion;
+  const auto  &ties    = input.model().ties;
+  const double n_ties  = static_cast<double>(std::count_if(ties.begin(), ties.end(), is_tied));
+  double       n_pairs = 0., n_obstacles = 0., gap = 0., distance = 0.;
+  Vector       normal, motion;
   for (unsigned int p = 0; p < gaps.size(); ++p)
     {
       const auto &pair = input.model().pairs[p];

@@ -6,8 +6,8 @@
 
 namespace snug::feti {
 namespace {
-/// Part of the diagonal that is added to W for contact rows beside ties. Two of these rows depend on
-/// each other and on ties where the edge of two tied bodies lies opposite to a slave node.
+/// Part of the diagonal that is added to W for contact rows beside ties. Two of these rows depend
+/// on each other and on ties where the edge of two tied bodies lies opposite to a slave node.
 const double beside_ties_shift = 1e-3;
 
 /// Flag the contact rows, and the rows coupled to a contact row by a chain of shared unknowns.

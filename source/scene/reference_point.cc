@@ -232,8 +232,8 @@ void check_pairs(const Scene &scene, const Origins &origins, const std::set<std:
     {
       pairs.emplace_back(pair.slave, pair.master);
       SectionCheck(pair.section(), origins, scene.dimension)
-        .require(pair.parameters.slave != contact::Slave::first || !follows(pair.slave),
-                 "Slave", to_text(pair.parameters.slave),
+        .require(pair.parameters.slave != contact::Slave::first || !follows(pair.slave), "Slave",
+                 to_text(pair.parameters.slave),
                  "must be finer, because '" + pair.slave + "' follows a reference point");
     }
   for (const auto &[slave, master] : pairs)

@@ -61,7 +61,7 @@ all_gradients(GradientScene<dim> &scene, const state::ContactState<dim> &state)
       std::vector<std::string> names;
       for (const auto &[name, response] : scene.responses)
         if (method != Method::energy ||
-            !sensitivity::needs_solve(*response, scene.problem.solver.has_friction()))
+            !sensitivity::needs_solve(*response, scene.problem.solver.has_potential()))
           names.push_back(name);
       parameters.method = method;
       const auto found  = scene.gradients(state, names, parameters);
