@@ -101,16 +101,21 @@ dealii::Tensor<1, dim> LocalErrors<dim>::area_vector(const mesh::LagrangePoint<d
          mesh.idealization().weight(elasticity::value(shape, X)) * n;
 }
 
-/// Collect the normals of a face at its center and the other held directions. The axis of
-/// revolution holds the radius.
+/// Collect the directions that are held at the center of a face. The axis of revolution holds the
+/// radius.
 template <int dim>
 void LocalErrors<dim>::find_held()
 {
   for (const auto &face : mesh.boundary_faces())
     {
-      auto      &directions = held[face.cell][face.number];
-      const auto X          = fields.positions(face.cell);
-      const auto hold       = [&](dealii::Tensor<1, dim> v) {
+      auto                  &directions = held[face.cell][face.number];
+      const auto             X          = fields.positions(face.cell);
+      dealii::Tensor<1, dim> centre, normal;
+      for (const unsigned int node : face.nodes)
+        centre += fields.local_positions[node] / double(face.nodes.size());
+      for (const auto &shape : face_points[face.number].shapes)
+        normal += area_vector(shape, face.number, X);
+      const auto hold = [&](dealii::Tensor<1, dim> v) {
         for (const auto &other : directions)
           v -= (v * other) * other;
         if (v.norm() > 1e-6)
@@ -118,15 +123,7 @@ void LocalErrors<dim>::find_held()
       };
       for (const auto &support : solver.model().supports)
         if (support.body == face.body && support.boundary == face.boundary)
-          {
-            dealii::Tensor<1, dim> v;
-            if (support.component == supports::Support<dim>::normal)
-              for (const auto &shape : face_points[face.number].shapes)
-                v += area_vector(shape, face.number, X);
-            else
-              v[support.component] = 1.;
-            hold(v / v.norm());
-          }
+          hold(support.component.direction(centre, normal / normal.norm()));
       if (solver.points().moves(face.body, face.boundary))
         for (unsigned int c = 0; c < dim; ++c)
           hold(dealii::Point<dim>::unit_vector(c));
@@ -225,11 +222,10 @@ void LocalErrors<dim>::add_springs(const Loaded &of, std::vector<Residual> &r) c
         const auto &on_face   = face_points[face.number];
         for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
           {
-            const auto            &shape     = on_face.shapes[q];
-            const auto             area      = area_vector(shape, face.number, X);
-            dealii::Tensor<1, dim> direction = area / area.norm();
-            if (spring.component != supports::Support<dim>::normal)
-              direction = dealii::Point<dim>::unit_vector(spring.component);
+            const auto &shape = on_face.shapes[q];
+            const auto  area  = area_vector(shape, face.number, X);
+            const auto  direction =
+              spring.component.direction(elasticity::value(shape, X), area / area.norm());
             const double force =
               spring.stiffness(dealii::Point<dim>(elasticity::value(shape, reference))) *
               area.norm() * (direction * elasticity::value(shape, v));

@@ -122,7 +122,8 @@ private:
     return (solver.mesh().idealization().is_axisymmetric() && normal[0] < -0.9) ||
            std::any_of(supports.begin(), supports.end(), [&](const auto &support) {
              return support.body == face.body && support.boundary == face.boundary &&
-                    (support.component == dim || std::abs(normal[support.component]) > 0.9);
+                    std::abs(normal * support.component.direction(local[face.nodes[0]], normal)) >
+                      0.9;
            });
   }
 };

@@ -160,11 +160,7 @@ dealii::Tensor<2, dim> Conditions<dim>::held(const Place<dim> &at) const
   for (const auto &support : input.model().supports)
     if (support.body == at.body && support.boundary == at.boundary)
       {
-        Vector direction;
-        if (support.component == supports::Support<dim>::normal)
-          direction = at.normal;
-        else
-          direction[support.component] = 1.;
+        Vector direction = support.component.direction(at.x, at.normal);
         direction -= P * direction;
         if (direction.norm() > 1e-3)
           P += outer_product(direction, direction) / direction.norm_square();
@@ -200,9 +196,7 @@ stiffness_of_springs(const state::Model<dim> &model, const Place<dim> &at, const
   for (const auto &spring : model.springs)
     if (spring.body == at.body && spring.boundary == at.boundary)
       {
-        dealii::Tensor<1, dim> q = at.normal;
-        if (spring.component != supports::Support<dim>::normal)
-          q = dealii::Point<dim>::unit_vector(spring.component);
+        const auto   q = spring.component.direction(at.x, at.normal);
         const double decay =
           spring.place ? std::exp(-at.x.distance_square(*spring.place) / (length * length)) : 1.;
         sum += decay * spring.stiffness(at.x) * outer_product(q, q);
@@ -221,13 +215,7 @@ void Conditions<dim>::add_loads(const Place<dim>  &at,
   const auto &loads = input.model().load_cases[load_case].bodies[at.body];
   for (const auto &support : input.model().supports)
     if (support.body == at.body && support.boundary == at.boundary && support.values[load_case])
-      {
-        const double value = support.values[load_case](at.x);
-        if (support.component == supports::Support<dim>::normal)
-          prescribed += value * at.normal;
-        else
-          prescribed[support.component] += value;
-      }
+      prescribed += support.values[load_case](at.x) * support.component.direction(at.x, at.normal);
   elasticity::Resultant<dim> total;
   if (const auto found = loads.boundaries.find(at.boundary); found != loads.boundaries.end())
     {

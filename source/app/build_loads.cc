@@ -266,7 +266,7 @@ unsigned int index_of(const supports::Support<dim>        &wanted,
 {
   for (unsigned int i = 0; i < supports.size(); ++i)
     if (supports[i].body == wanted.body && supports[i].boundary == wanted.boundary &&
-        supports[i].component == wanted.component)
+        supports[i].component.number == wanted.component.number)
       return i;
   supports.push_back(wanted);
   return supports.size() - 1;
@@ -327,6 +327,23 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
 }
 
 template <int dim>
+supports::Component<dim>
+build_component(const scene::Scene &scene, const unsigned int body, const unsigned int number)
+{
+  const auto &of_body = scene.bodies[body];
+  if (number > dim && scene::idealization(scene).is_axisymmetric())
+    throw bad_entry("Model", "axisymmetric",
+                    "does not allow the radial and tangential components of '" + of_body.name +
+                      "'");
+  supports::Axis<dim> axis{dealii::Point<dim>(to_tensor<dim>(of_body.axis_point)),
+                           to_tensor<dim>(of_body.axis)};
+  if (of_body.axis.empty())
+    axis.direction[dim - 1] = 1.;
+  axis.direction /= axis.direction.norm();
+  return {number, axis};
+}
+
+template <int dim>
 std::vector<supports::Support<dim>> build_supports(const scene::Scene        &scene,
                                                    const mesh::BodyMesh<dim> &mesh)
 {
@@ -337,7 +354,7 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
     const auto where = find_face(scene, mesh, face);
     return supports::Support<dim>{where.first,
                                   where.second,
-                                  component,
+                                  build_component<dim>(scene, where.first, component),
                                   std::vector<ScalarFunction<dim>>(n_cases),
                                   "'" + entry + "' of '" + face + "'",
                                   face};
@@ -348,7 +365,7 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
     for (const auto &item : loads.displacements)
       {
         const auto parts = scene::split_displacement(item.second);
-        const auto c     = *scene::component_number(parts.first, dim);
+        const auto c     = scene::component_number(parts.first, dim);
         auto      &held  = supports[index_of(support(entry, prefix + item.first, c), supports)];
         for (unsigned int load_case = 0; load_case < n_cases; ++load_case)
           if (is_in_case(load_case))
@@ -370,15 +387,17 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
   return supports;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                 \
-  template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,              \
-                                                           const mesh::BodyMesh<dim> &,       \
-                                                           const std::string &);              \
-  template contact::Side find_side(const scene::Scene &, const mesh::BodyMesh<dim> &,         \
-                                   const std::string &);                                      \
-  template std::vector<state::LoadCase<dim>>   build_load_cases(const scene::Scene &,         \
-                                                                const mesh::BodyMesh<dim> &); \
-  template std::vector<supports::Support<dim>> build_supports(const scene::Scene &,           \
+#define SNUG_INSTANTIATE(dim)                                                                        \
+  template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,                     \
+                                                           const mesh::BodyMesh<dim> &,              \
+                                                           const std::string &);                     \
+  template supports::Component<dim>              build_component(const scene::Scene &, unsigned int, \
+                                                                 unsigned int);                      \
+  template contact::Side find_side(const scene::Scene &, const mesh::BodyMesh<dim> &,                \
+                                   const std::string &);                                             \
+  template std::vector<state::LoadCase<dim>>   build_load_cases(const scene::Scene &,                \
+                                                                const mesh::BodyMesh<dim> &);        \
+  template std::vector<supports::Support<dim>> build_supports(const scene::Scene &,                  \
                                                               const mesh::BodyMesh<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

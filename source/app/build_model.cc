@@ -178,6 +178,7 @@ state::Model<dim> build_model(const scene::Scene &scene, const mesh::BodyMesh<di
       model.bodies.emplace_back();
       model.bodies.back().materials   = materials_of(scene, body, mesh.geometry(b).region_names());
       model.bodies.back().formulation = body.formulation;
+      model.bodies.back().axis        = build_component<dim>(scene, b, 0).axis;
     }
   model.load_cases     = build_load_cases(scene, mesh);
   model.supports       = build_supports(scene, mesh);

@@ -28,7 +28,7 @@ std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scen
           for (const unsigned int c : scene::component_list(name, dim))
             {
               auto next      = spring(entry, body.name, boundary, text);
-              next.component = c;
+              next.component = build_component<dim>(scene, next.body, c);
               next.stiffness = [of_position](const dealii::Point<dim> &x) {
                 return of_position->value(x);
               };
@@ -71,7 +71,9 @@ std::vector<supports::PointSupport<dim>> build_point_supports(const scene::Scene
         for (unsigned int c = 0; c < dim; ++c)
           place[c] = hold.at[c];
         for (const unsigned int c : hold.components)
-          supports.push_back({where.first, where.second, c, hold.value, place, name, face});
+          supports.push_back({where.first, where.second,
+                              build_component<dim>(scene, where.first, c), hold.value, place, name,
+                              face});
       }
   return supports;
 }

@@ -145,12 +145,9 @@ double held_square(const ShapeProblem<dim>      &problem,
         continue;
       const MovedNodes<dim> nodes(*problem.mesh, {{support.body, support.boundary}});
       auto                  directions = nodes.normals;
-      if (support.component != supports::Support<dim>::normal)
-        for (auto &direction : directions)
-          {
-            direction                    = 0.;
-            direction[support.component] = 1.;
-          }
+      for (unsigned int node = 0; node < nodes.n(); ++node)
+        directions[node] = support.component.direction(nodes.surface.reference_positions()[node],
+                                                       nodes.normals[node]);
       const auto held = nodes.along(directions, centre, length, motion);
       result += optimization::dot(held, held) / nodes.n();
     }

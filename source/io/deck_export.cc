@@ -237,7 +237,7 @@ private:
       for (const auto &[boundary, text] : loads->displacements)
         {
           const auto [name, formula] = scene::split_displacement(text);
-          const unsigned int c       = *scene::component_number(name, dim);
+          const unsigned int c       = scene::component_number(name, dim);
           const auto         value   = constant(formula);
           is_simple                  = is_simple && c < dim && value;
           by_sets += deck_name(prefix + boundary) + ", " + deck_number(c) + ", " + deck_number(c) +

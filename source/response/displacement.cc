@@ -10,16 +10,19 @@ namespace {
 template <int dim>
 using Nodes = std::vector<dealii::Tensor<1, dim>>;
 
-/// Return the load on a face of @p n Gauss points with forces f(X) such that f . u = int u . e dA.
+/// Return the load on a face with these Gauss points with forces f(X) such that f . u = int u . e
+/// dA.
 template <int dim>
-elasticity::FaceLoadValues<dim> unit_load(const ResponseParameters &parameters, unsigned int n)
+elasticity::FaceLoadValues<dim> unit_load(const supports::Component<dim> &component,
+                                          const Nodes<dim>               &points)
 {
   elasticity::FaceLoadValues<dim> load;
-  if (parameters.component == Component::normal)
+  if (component.is_normal())
     // A pressure acts along the inner normal, so the pressure -1 makes f . u the integral of u . n.
-    load.pressure.assign(n, -1.);
+    load.pressure.assign(points.size(), -1.);
   else
-    load.traction.assign(n, unit_vector<dim>(parameters));
+    for (const auto &x : points)
+      load.traction.push_back(component.direction(x, {}));
   return load;
 }
 
@@ -34,7 +37,8 @@ Average average(const state::StateSolver<dim>  &solver,
                 const state::ContactState<dim> &state,
                 const ResponseParameters       &parameters)
 {
-  double sums[2] = {0., 0.};
+  const auto component = component_of(solver, parameters);
+  double     sums[2]   = {0., 0.};
   for (const auto &face : faces_of(solver, parameters))
     {
       const auto &assembler = *solver.assemblers()[face.subdomain];
@@ -42,7 +46,7 @@ Average average(const state::StateSolver<dim>  &solver,
       const auto  u =
         at_face<dim>(face, assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
       Nodes<dim> f;
-      solver.face_load().force(X, unit_load<dim>(parameters, X.size()), f);
+      solver.face_load().force(X, unit_load(component, solver.face_load().quadrature_points(X)), f);
       for (unsigned int a = 0; a < u.size(); ++a)
         sums[0] += f[a] * u[a];
       // The integrals int N_a dA add up to the area of the face.
@@ -65,15 +69,13 @@ public:
     return {"Body", "Face", "Point", "Component"};
   }
 
-  /// Check the entries. A point has no normal, so the component normal is allowed for faces only.
+  /// Check the entries. ResponseParameters::check() allows x, y and z only at points.
   void check(const state::StateSolver<dim> &solver) const override
   {
     if (parameters.point.empty())
-      find_boundary(solver, parameters);
+      component_of(solver, parameters);
     else
       find_point(solver, parameters);
-    if (parameters.component != Component::normal || !parameters.point.empty())
-      unit_vector<dim>(parameters);
   }
 
   double value(const state::StateSolver<dim>  &solver,
@@ -114,13 +116,10 @@ public:
       return result;
     const double area = average(solver, state, parameters).area;
     result.boundary   = find_boundary(solver, parameters);
-    if (parameters.component == Component::normal)
-      result.traction = [area](const dealii::Tensor<1, dim> &normal,
-                               const dealii::Tensor<1, dim> &) { return normal / area; };
-    else
-      result.traction = [e = unit_vector<dim>(parameters) / area](const dealii::Tensor<1, dim> &,
-                                                                  const dealii::Tensor<1, dim> &) {
-        return e;
+    result.traction =
+      [area, component = component_of(solver, parameters)](const dealii::Tensor<1, dim> &normal,
+                                                           const dealii::Tensor<1, dim> &x) {
+        return component.direction(x, normal) / area;
       };
     return result;
   }
@@ -147,12 +146,13 @@ private:
 
   /// Return the derivatives on a face. With J = I / A, I = int u . e dA and A = int dA, the
   /// derivative is J' = I' / A - J A' / A. I is the work f(X) . u of a unit load, so dI/du = f and
-  /// dI/dX is the gradient of that work.
+  /// dI/dX is the gradient of that work, with the derivative of e.
   Partials<dim> partials_on_face(const state::StateSolver<dim>  &solver,
                                  const state::ContactState<dim> &state) const
   {
-    const auto    whole = average(solver, state, parameters);
-    const double  J     = whole.integral / whole.area;
+    const auto    component = component_of(solver, parameters);
+    const auto    whole     = average(solver, state, parameters);
+    const double  J         = whole.integral / whole.area;
     Partials<dim> result;
     result.positions.resize(solver.mesh().n_points());
     for (const auto &assembler : solver.assemblers())
@@ -165,7 +165,8 @@ private:
         const auto  X         = at_face<dim>(face, cell_X);
         const auto  u =
           at_face<dim>(face, assembler.cell_values(face.cell, state.u[face.subdomain].column(0)));
-        const auto unit = unit_load<dim>(parameters, X.size());
+        const auto points = load.quadrature_points(X), u_at = load.quadrature_points(u);
+        const auto unit = unit_load(component, points);
         Nodes<dim> f, in_cell(cell_X.size()), gradient(X.size());
         load.force(X, unit, f);
         for (unsigned int a = 0; a < f.size(); ++a)
@@ -174,6 +175,13 @@ private:
           in_cell[face.places[a]] += f[a] / whole.area;
         assembler.add_cell_vector(face.cell, 1., in_cell, result.u[face.subdomain].column(0));
         load.add_force_gradient(X, unit, u, 1. / whole.area, gradient);
+        // A direction e about an axis turns with the Gauss points: add int ((de/dx)' u) . V dA / A.
+        elasticity::FaceLoadValues<dim> turning;
+        for (unsigned int q = 0; q < points.size(); ++q)
+          turning.traction.push_back(transpose(component.derivative(points[q])) * u_at[q]);
+        load.force(X, turning, f);
+        for (unsigned int a = 0; a < f.size(); ++a)
+          gradient[a] += f[a] / whole.area;
         // The area is int dA = int e . e dA with a unit vector e.
         dealii::Tensor<1, dim> e;
         e[0] = 1.;

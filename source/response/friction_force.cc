@@ -26,7 +26,7 @@ public:
   {
     row_shares(solver, parameters.pair, 0);
     if (is_moment)
-      moment_axis<dim>(parameters);
+      axis_of<dim>(parameters);
     else
       unit_vector<dim>(parameters);
   }
@@ -107,10 +107,9 @@ private:
         use(rows, forces,
             motion_of_slave<dim>(solver, state.load_case, contact.pairs()[p], x,
                                  [&](const dealii::Tensor<1, dim> &at) {
-                                   return is_moment
-                                            ? elasticity::turned(moment_axis<dim>(parameters),
-                                                                 at - point())
-                                            : unit_vector<dim>(parameters);
+                                   return is_moment ? elasticity::turned(axis_of<dim>(parameters),
+                                                                         at - point())
+                                                    : unit_vector<dim>(parameters);
                                  }));
       }
   }
@@ -134,7 +133,7 @@ private:
           {
             const auto to_space = solver.motion(state.load_case, body[node]);
             gradient[node] -= to_space.vector_back(
-              elasticity::turned(moment_axis<dim>(parameters), to_space.vector(forces[i] * c)));
+              elasticity::turned(axis_of<dim>(parameters), to_space.vector(forces[i] * c)));
           }
   }
 };

@@ -116,26 +116,33 @@ void require_one_body(const ResponseParameters       &parameters,
 template <int dim>
 dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters)
 {
-  const Component component = parameters.component;
-  if (component == Component::normal || (dim == 2 && component == Component::z))
-    throw bad_entry(parameters.path("Component"), to_text(component),
+  const auto c = static_cast<unsigned int>(parameters.component) - 1; // of x, y, z
+  if (c >= dim)
+    throw bad_entry(parameters.path("Component"), to_text(parameters.component),
                     dim == 2 ? "must be x or y" : "must be x, y or z");
-  dealii::Tensor<1, dim> result;
-  result[static_cast<unsigned int>(component) - static_cast<unsigned int>(Component::x)] = 1.;
-  return result;
+  return dealii::Point<dim>::unit_vector(c);
 }
 
 template <int dim>
-dealii::Tensor<1, 3> moment_axis(const ResponseParameters &parameters)
+supports::Component<dim> component_of(const state::StateSolver<dim> &solver,
+                                      const ResponseParameters      &parameters)
 {
-  const Component component = parameters.component;
-  if (component == Component::normal || (dim == 2 && component != Component::z))
-    throw bad_entry(parameters.path("Component"), to_text(component),
-                    dim == 2 ? "must be z, the axis of the moment"
-                             : "must be x, y or z, the axis of the moment");
-  dealii::Tensor<1, 3> axis;
-  axis[static_cast<unsigned int>(component) - static_cast<unsigned int>(Component::x)] = 1.;
-  return axis;
+  const auto  c    = static_cast<unsigned int>(parameters.component); // of normal, x, y, z, radial
+  const auto &body = solver.model().bodies[find_boundary(solver, parameters).first];
+  if (c > 3 && solver.mesh().idealization().is_axisymmetric())
+    throw bad_entry(parameters.path("Component"), to_text(parameters.component),
+                    "must be x, y or normal for Model = axisymmetric");
+  return {c == 0 ? dim : c <= 3 ? c - 1 : c - 3 + dim, body.axis};
+}
+
+template <int dim>
+dealii::Tensor<1, 3> axis_of(const ResponseParameters &parameters)
+{
+  const auto c = static_cast<unsigned int>(parameters.component) - 1; // of x, y, z
+  if (c > 2 || (dim == 2 && c != 2))
+    throw bad_entry(parameters.path("Component"), to_text(parameters.component),
+                    dim == 2 ? "must be z, the axis" : "must be x, y or z, the axis");
+  return dealii::Point<3>::unit_vector(c);
 }
 
 template <int dim>
@@ -205,7 +212,9 @@ std::vector<CellWeights> find_point(const state::StateSolver<dim> &solver,
 
 #define SNUG_INSTANTIATE(dim)                                                                   \
   template dealii::Tensor<1, dim>                unit_vector(const ResponseParameters &);       \
-  template dealii::Tensor<1, 3>                  moment_axis<dim>(const ResponseParameters &);  \
+  template dealii::Tensor<1, 3>                  axis_of<dim>(const ResponseParameters &);      \
+  template supports::Component<dim>              component_of(const state::StateSolver<dim> &,  \
+                                                              const ResponseParameters &);      \
   template std::pair<unsigned int, unsigned int> find_boundary(const state::StateSolver<dim> &, \
                                                                const ResponseParameters &);     \
   template std::vector<CellWeights>              find_point(const state::StateSolver<dim> &,    \

@@ -35,7 +35,10 @@ public:
   void check(const state::StateSolver<dim> &solver) const override
   {
     find_boundary(solver, parameters);
-    axis();
+    if (is_moment)
+      axis_of<dim>(parameters);
+    else if (component_of(solver, parameters).is_normal())
+      unit_vector<dim>(parameters); // throws
   }
 
   double value(const state::StateSolver<dim>  &solver,
@@ -88,24 +91,13 @@ public:
                                                    contact.forces(rows.contact, forces.contact)),
                       result.positions);
     surface.add_owned(solver.ties().energy_gradient(x, on_surface, forces.ties), result.positions);
-    if (is_moment)
-      add_lever_gradient(solver, state, result.positions);
+    add_motion_gradient(solver, state, result.positions);
     return result;
   }
 
 private:
   const ResponseParameters parameters;
   const bool               is_moment;
-
-  dealii::Tensor<1, 3> axis() const
-  {
-    if (is_moment)
-      return moment_axis<dim>(parameters);
-    dealii::Tensor<1, 3> e;
-    for (unsigned int c = 0; c < dim; ++c)
-      e[c] = unit_vector<dim>(parameters)[c];
-    return e;
-  }
 
   dealii::Tensor<1, dim> point() const
   {
@@ -115,14 +107,18 @@ private:
     return result;
   }
 
-  /// Return the virtual motion of a node of the boundary at @p x in the frame of its body. Forces,
-  /// axis and point are given in space.
-  dealii::Tensor<1, dim> motion_at(const geometry::RigidMotion<dim> &to_space,
+  /// Return the virtual motion of a node of the boundary at @p x in the frame of its body. Forces
+  /// along x, y, z, axes and points of moments are given in space. The axis of the body moves with
+  /// it.
+  dealii::Tensor<1, dim> motion_at(const state::StateSolver<dim>    &solver,
+                                   const geometry::RigidMotion<dim> &to_space,
                                    const dealii::Tensor<1, dim>     &x) const
   {
     if (is_moment)
-      return to_space.vector_back(elasticity::turned(axis(), to_space.point(x) - point()));
-    return to_space.vector_back(unit_vector<dim>(parameters));
+      return to_space.vector_back(
+        elasticity::turned(axis_of<dim>(parameters), to_space.point(x) - point()));
+    const auto e = component_of(solver, parameters).direction(x, {});
+    return parameters.component > Component::z ? e : to_space.vector_back(e);
   }
 
   /// Return P of the local nodes.
@@ -167,7 +163,7 @@ private:
     const auto       to_space = motion_of_body(solver, state);
     mesh::Field<dim> v(P.size());
     for (unsigned int node = 0; node < v.size(); ++node)
-      v[node] = P[node] * motion_at(to_space, state.positions[node]);
+      v[node] = P[node] * motion_at(solver, to_space, state.positions[node]);
     return v;
   }
 
@@ -227,17 +223,23 @@ private:
     return r;
   }
 
-  /// Add the derivative by the places of the nodes in v = e x (x - p): r . (e x dx) = dx . (r x e).
-  void add_lever_gradient(const state::StateSolver<dim>  &solver,
-                          const state::ContactState<dim> &state,
-                          mesh::Field<dim>               &gradient) const
+  /// Add the derivative by the places of the nodes in v = e x (x - p): r . (e x dx) = dx . (r x e),
+  /// or in the direction v = e(x).
+  void add_motion_gradient(const state::StateSolver<dim>  &solver,
+                           const state::ContactState<dim> &state,
+                           mesh::Field<dim>               &gradient) const
   {
     const auto P        = directions(solver);
     const auto to_space = motion_of_body(solver, state);
     const auto r        = nodal_forces(solver, state);
     for (unsigned int node = 0; node < r.size(); ++node)
-      gradient[node] -=
-        to_space.vector_back(elasticity::turned(axis(), to_space.vector(P[node] * r[node])));
+      if (is_moment)
+        gradient[node] -= to_space.vector_back(
+          elasticity::turned(axis_of<dim>(parameters), to_space.vector(P[node] * r[node])));
+      else
+        gradient[node] +=
+          transpose(component_of(solver, parameters).derivative(state.positions[node])) *
+          (P[node] * r[node]);
   }
 };
 } // namespace

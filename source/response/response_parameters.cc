@@ -59,12 +59,14 @@ void ResponseParameters::check(const SectionCheck &section) const
       section.require(point.empty() != face.empty(), "Point", to_text(point),
                       "either 'Point' or 'Face' must be given");
       section.require(face.empty() || body.empty(), "Body", body, "must be left out with 'Face'");
-      section.require(point.empty() || component != Component::normal, "Component",
-                      to_text(component), "must be x, y or z with 'Point'");
+      section.require(point.empty() || (component >= Component::x && component <= Component::z),
+                      "Component", to_text(component), "must be x, y or z with 'Point'");
     }
   const bool turns =
     quantity == "rotation" || quantity == "reaction moment" || quantity == "friction moment";
-  section.require(component != Component::z || section.dimension == 3 || turns, "Component",
-                  to_text(component), "must be normal, x or y for Dimension = 2");
+  section.require((component != Component::z && component != Component::axial) ||
+                    section.dimension == 3 || turns,
+                  "Component", to_text(component),
+                  "must be normal, x, y, radial or tangential for Dimension = 2");
 }
 } // namespace snug::response

@@ -22,7 +22,7 @@ public:
   void check(const state::StateSolver<dim> &solver) const override
   {
     find_boundary(solver, parameters);
-    axis();
+    axis_of<dim>(parameters);
   }
 
   double value(const state::StateSolver<dim>  &solver,
@@ -74,19 +74,6 @@ public:
 private:
   const ResponseParameters parameters;
 
-  /// Return the axis as a vector in space.
-  dealii::Tensor<1, 3> axis() const
-  {
-    const Component      component = parameters.component;
-    dealii::Tensor<1, 3> result;
-    if (component == Component::normal || (dim == 2 && component != Component::z))
-      throw bad_entry(parameters.path("Component"), to_text(component),
-                      dim == 2 ? "must be z, the axis of the rotation"
-                               : "must be x, y or z, the axis of the rotation");
-    result[static_cast<unsigned int>(component) - static_cast<unsigned int>(Component::x)] = 1.;
-    return result;
-  }
-
   /// A unit moment about the axis on the boundary.
   struct UnitMoment
   {
@@ -117,7 +104,8 @@ private:
     {
       state::LoadCase<dim> result;
       result.bodies.resize(solver.mesh().n_bodies());
-      result.bodies[boundary.first].boundaries[boundary.second].resultant.moment = rotation.axis();
+      result.bodies[boundary.first].boundaries[boundary.second].resultant.moment =
+        axis_of<dim>(rotation.parameters);
       return result;
     }
 

@@ -80,20 +80,17 @@ void check_materials(const Scene &scene, const SectionCheck &section, const Body
 
 void check_supports(const SectionCheck &section, const Body &body)
 {
+  const auto is_zero = [](const double number) { return number == 0.; };
+  section.require(body.axis.empty() || (section.dimension == 3 &&
+                                        !std::all_of(body.axis.begin(), body.axis.end(), is_zero)),
+                  "Axis", to_text(body.axis),
+                  section.dimension == 3 ? "must not be zero" : "must be empty for Dimension = 2");
   const std::string value = to_text(body.supports);
   for (const auto &[boundary, words] : body.supports)
     require_boundary(section, "Supports", value, body, boundary);
   for (const auto &[boundary, words] : body.supports)
-    try
-      {
-        section.require(!component_list(words, section.dimension).empty(), "Supports", value,
-                        "'" + boundary + "' must have at least one component");
-      }
-    catch (const std::invalid_argument &error)
-      {
-        throw section.error("Supports", value,
-                            error.what() + std::string("; ") + component_names(section.dimension));
-      }
+    section.require(!section.read("Supports", value, "", component_list, words).empty(), "Supports",
+                    value, "'" + boundary + "' must have at least one component");
 }
 
 void check_point_supports(const SectionCheck &section, const Body &body)
@@ -102,15 +99,7 @@ void check_point_supports(const SectionCheck &section, const Body &body)
   for (const auto &[boundary, text] : body.point_supports)
     {
       require_boundary(section, "Point supports", held, body, boundary);
-      try
-        {
-          point_hold(text, section.dimension);
-        }
-      catch (const std::invalid_argument &error)
-        {
-          throw section.error("Point supports", held,
-                              "support of '" + boundary + "': " + quotable(error.what()));
-        }
+      section.read("Point supports", held, "support of '" + boundary + "': ", point_hold, text);
     }
 }
 
@@ -122,17 +111,7 @@ void check_springs(const SectionCheck &section, const Body &body)
     {
       require_boundary(section, "Springs", value, body, boundary);
       const auto [words, formula] = split_displacement(text);
-      std::vector<unsigned int> components;
-      try
-        {
-          components = component_list(words, section.dimension);
-        }
-      catch (const std::invalid_argument &error)
-        {
-          throw section.error("Springs", value,
-                              error.what() + std::string("; ") +
-                                component_names(section.dimension));
-        }
+      const auto components       = section.read("Springs", value, "", component_list, words);
       section.require(!components.empty() && !formula.empty(), "Springs", value,
                       "'" + quotable(text) + "' must read 'components = formula'");
       geometry::require_formula(section, "Springs", value, formula);
@@ -144,28 +123,21 @@ void check_springs(const SectionCheck &section, const Body &body)
   for (const auto &[boundary, text] : body.point_springs)
     {
       require_boundary(section, "Point springs", points, body, boundary);
-      try
+      const auto given =
+        section.read("Point springs", points, "spring of '" + boundary + "': ", placed_force, text);
+      section.require(!given.at.empty() && given.from.empty() && given.to.empty() &&
+                        given.along.empty(),
+                      "Point springs", points,
+                      "the spring of '" + boundary + "' must read 'x y z at x y z'");
+      double sum = 0.;
+      for (const double stiffness : given.force)
         {
-          const auto given = placed_force(text, section.dimension);
-          section.require(!given.at.empty() && given.from.empty() && given.to.empty() &&
-                            given.along.empty(),
-                          "Point springs", points,
-                          "the spring of '" + boundary + "' must read 'x y z at x y z'");
-          double sum = 0.;
-          for (const double stiffness : given.force)
-            {
-              section.require(stiffness >= 0., "Point springs", points,
-                              "stiffnesses must not be negative");
-              sum += stiffness;
-            }
-          section.require(sum > 0., "Point springs", points,
-                          "the spring of '" + boundary + "' must have a stiffness");
+          section.require(stiffness >= 0., "Point springs", points,
+                          "stiffnesses must not be negative");
+          sum += stiffness;
         }
-      catch (const std::invalid_argument &error)
-        {
-          throw section.error("Point springs", points,
-                              "spring of '" + boundary + "': " + quotable(error.what()));
-        }
+      section.require(sum > 0., "Point springs", points,
+                      "the spring of '" + boundary + "' must have a stiffness");
     }
 }
 } // namespace
@@ -184,11 +156,17 @@ void Body::declare(Entries &entries)
     "of "
     "a mesh file and of 'Region formulas'. Cells of no region are in the region body.");
   entries.add("Formulation", formulation, "The treatment of volumetric strain in the elements.");
+  entries.add("Axis", axis, per_dimension(),
+              "The direction, of any length, of the axis of the components 'radial', 'tangential' "
+              "and 'axial'. An empty list means z. In 2D it must be empty.");
+  entries.add("Axis point", axis_point, per_dimension(),
+              "A point of the axis. An empty list means the origin. Units: length.");
   entries.add(
     "Supports", supports, allowed("a list 'boundary: components, ...' of different boundaries"),
     "The displacement components that boundaries hold at zero: 'bottom: xyz, left: x'. "
     "'normal' is the component along the outward normal of a flat, oblique or curved face, "
-    "for symmetry planes and rollers: 'side: normal, end: normal z'.");
+    "for symmetry planes and rollers: 'side: normal, end: normal z'. 'radial', 'tangential' and "
+    "'axial' are the components about 'Axis': 'bore: tangential axial'.");
   entries.add(
     "Point supports", point_supports, allowed("a list 'boundary: components at x y z, ...'"),
     "The displacement components of nodes at places of the reference geometry, in all load cases: "

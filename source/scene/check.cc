@@ -255,9 +255,4 @@ void require_face(const Scene        &scene,
                   suggestion(name, known));
   require_boundary(section, entry, value, scene.bodies[index], boundary);
 }
-
-std::string component_names(const unsigned int dimension)
-{
-  return std::string("components are ") + (dimension == 2 ? "x, y" : "x, y, z") + " and normal";
-}
 } // namespace snug::scene

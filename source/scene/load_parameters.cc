@@ -34,10 +34,11 @@ void LoadParameters::declare(Entries &entries, const std::string &key, const std
 {
   const std::string list = "a list '" + key + ": ";
   entries.add("Displacement", displacements, allowed(list + "component = formula, ...'"),
-              "The prescribed displacement components x, y, z or normal, as formulas of x, y, z in "
-              "the reference geometry: '" +
+              "The prescribed displacement components, with names as in 'Supports', as formulas of "
+              "x, y, z in the reference geometry: '" +
                 where + ": z = -0.012, " + where +
-                ": x = 1e-3*y'. Components without a formula remain free. Units: length.");
+                ": tangential = 1e-3*sqrt(x^2+y^2)'. Components without a formula remain free. "
+                "Units: length.");
   entries.add("Pressure", pressure, allowed(list + "formula, ...' of different boundaries"),
               "The pressure, a number or a formula of x, y, z in the reference geometry: '" +
                 where + ": 100*(1-x^2)'. A positive pressure pushes. Units: force/length^2.");
@@ -137,17 +138,13 @@ void LoadCaseParameters::check_positions(const SectionCheck             &section
       require(std::find(names.begin(), names.end(), name) != names.end(),
               "there is no body or obstacle '" + quotable(name) + "'");
       require(moved.insert(name).second, "'" + name + "' occurs twice");
-      try
-        {
-          if (section.dimension == 2)
-            geometry::rigid_motion<2>(motion);
-          else
-            geometry::rigid_motion<3>(motion);
-        }
-      catch (const std::invalid_argument &error)
-        {
-          require(false, "motion of '" + name + "': " + error.what());
-        }
+      const auto read = [](const std::string &text, const unsigned int dimension) {
+        if (dimension == 2)
+          geometry::rigid_motion<2>(text);
+        else
+          geometry::rigid_motion<3>(text);
+      };
+      section.read("Position", to_text(positions, ';'), "motion of '" + name + "': ", read, motion);
     }
 }
 
@@ -185,15 +182,8 @@ void LoadParameters::check_placed(const SectionCheck &section, const RequireKey 
 {
   const auto read = [&](const std::string &entry, const auto &forces, const auto &item) {
     require_key(entry, to_text(forces), item.first);
-    try
-      {
-        return placed_force(item.second, section.dimension);
-      }
-    catch (const std::invalid_argument &error)
-      {
-        throw section.error(entry, to_text(forces),
-                            "force of '" + item.first + "': " + quotable(error.what()));
-      }
+    return section.read(entry, to_text(forces), "force of '" + item.first + "': ", placed_force,
+                        item.second);
   };
   for (const auto &item : point_forces)
     {
@@ -231,13 +221,10 @@ void LoadParameters::check_displacements(const SectionCheck &section,
   for (const auto &item : displacements)
     {
       const auto [name, formula] = split_displacement(item.second);
-      const auto number          = component_number(name, section.dimension);
-      section.require(number.has_value(), "Displacement", value,
-                      "'" + quotable(name) + "' is not a component; " +
-                        component_names(section.dimension));
+      const auto number          = section.read("Displacement", value, "", component_number, name);
       section.require(!formula.empty(), "Displacement", value,
                       "'" + quotable(item.second) + "' must read 'component = formula'");
-      section.require(held.emplace(prefix + item.first, *number).second, "Displacement", value,
+      section.require(held.emplace(prefix + item.first, number).second, "Displacement", value,
                       "'" + name + "' of '" + item.first +
                         "' is held twice, or by 'Supports' as well");
       geometry::require_formula(section, "Displacement", value, formula);

@@ -27,30 +27,30 @@ std::pair<std::string, std::string> split_face(const std::string &face)
   return {face.substr(0, dot), face.substr(dot + 1)};
 }
 
-std::optional<unsigned int> component_number(const std::string &name, const unsigned int dimension)
+unsigned int component_number(const std::string &name, const unsigned int dimension)
 {
-  const std::string axes = std::string("xyz").substr(0, dimension);
-  if (name == "normal")
-    return dimension;
-  if (name.size() == 1 && axes.find(name) != std::string::npos)
-    return axes.find(name);
-  return {};
+  using Names        = std::vector<std::string>;
+  const Names names  = dimension == 2
+                         ? Names{"x", "y", "normal", "radial", "tangential"}
+                         : Names{"x", "y", "z", "normal", "radial", "tangential", "axial"};
+  const auto  number = std::find(names.begin(), names.end(), name) - names.begin();
+  if (number == static_cast<long>(names.size()))
+    throw std::invalid_argument("'" + name + "' is not a component (" + to_text(names) + ")");
+  return number;
 }
 
 std::vector<unsigned int> component_list(const std::string &words, const unsigned int dimension)
 {
   std::vector<unsigned int> components;
   const auto                add = [&](const std::string &name) {
-    const auto number = component_number(name, dimension);
-    if (!number)
-      throw std::invalid_argument("'" + name + "' is not a component");
-    if (std::find(components.begin(), components.end(), *number) != components.end())
+    const unsigned int number = component_number(name, dimension);
+    if (std::find(components.begin(), components.end(), number) != components.end())
       throw std::invalid_argument("'" + name + "' occurs twice");
-    components.push_back(*number);
+    components.push_back(number);
   };
   std::istringstream text(words);
   for (std::string word; text >> word;)
-    if (word == "normal")
+    if (word.size() > 3)
       add(word);
     else
       for (const char name : word)

@@ -60,7 +60,7 @@ template <int dim>
 void Springs<dim>::add_sides(const supports::Spring<dim> &spring, const SurfaceField &x)
 {
   const auto gauss = mesh::lagrange_gauss_points<dim - 1>(mesh.degree());
-  const auto sides = spring.component == supports::Support<dim>::normal
+  const auto sides = spring.component.is_normal()
                        ? supports::smooth_sides(surface, {{spring.body, spring.boundary}}, shape, x)
                        : std::vector<std::vector<unsigned int>>{faces_of(surface, spring)};
   for (const auto &side : sides)
@@ -114,12 +114,6 @@ void Springs<dim>::set_scales(const SurfaceField &x)
         modulus * mesh.idealization().weight(sum(place, x)) * (dim == 3 ? size : 1.);
       place.scale = std::sqrt(1. + of_body / stiffness(place, x));
     }
-}
-
-template <int dim>
-bool Springs<dim>::is_normal(const Group &group) const
-{
-  return group.spring->component == supports::Support<dim>::normal;
 }
 
 template <int dim>
@@ -195,12 +189,12 @@ SpringRow<dim> Springs<dim>::row(const Place &place, const dealii::Tensor<1, dim
   return result;
 }
 
-/// Return the nodal normals of a group; empty if its direction is an axis.
+/// Return the nodal normals of a group; empty if its direction is not the normal.
 template <int dim>
 typename Springs<dim>::SurfaceField Springs<dim>::normals(const Group        &group,
                                                           const SurfaceField &x) const
 {
-  if (!is_normal(group))
+  if (!group.spring->component.is_normal())
     return {};
   return faces::NodalNormals<dim>(surface, group.faces, shape, x).normals();
 }
@@ -215,15 +209,14 @@ std::vector<SpringRow<dim>> Springs<dim>::rows(const Field &positions) const
   auto       place = places.begin();
   for (unsigned int g = 0; g < groups.size(); ++g)
     {
-      const auto n = normals(groups[g], x);
+      const auto &component = groups[g].spring->component;
+      const auto  n         = normals(groups[g], x);
       for (; place != places.end() && place->group == g; ++place)
         {
-          dealii::Tensor<1, dim> q;
-          if (is_normal(groups[g]))
-            q = sum(*place, n) / sum(*place, n).norm();
-          else
-            q[groups[g].spring->component] = 1.;
-          result.push_back(row(*place, q));
+          dealii::Tensor<1, dim> normal;
+          if (component.is_normal())
+            normal = sum(*place, n) / sum(*place, n).norm();
+          result.push_back(row(*place, component.direction(sum(*place, x), normal)));
           result.back().stiffness = stiffness(*place, x);
         }
     }
@@ -241,14 +234,15 @@ std::vector<SpringRow<dim>> Springs<dim>::row_derivatives(const Field &positions
   auto       place = places.begin();
   for (unsigned int g = 0; g < groups.size(); ++g)
     {
-      const auto   n = normals(groups[g], x);
+      const auto  &component = groups[g].spring->component;
+      const auto   n         = normals(groups[g], x);
       SurfaceField dn;
-      if (is_normal(groups[g]))
+      if (component.is_normal())
         dn = faces::NodalNormals<dim>(surface, groups[g].faces, shape, x).derivative(V);
       for (; place != places.end() && place->group == g; ++place)
         {
-          dealii::Tensor<1, dim> dq;
-          if (is_normal(groups[g]))
+          auto dq = component.derivative(sum(*place, x)) * sum(*place, V);
+          if (component.is_normal())
             {
               const auto   v = sum(*place, n), dv = sum(*place, dn);
               const double length = v.norm();
@@ -277,7 +271,8 @@ void Springs<dim>::add_energy_gradient(const Field               &positions,
   unsigned int i = 0;
   for (unsigned int g = 0; g < groups.size(); ++g)
     {
-      const auto   n = normals(groups[g], x);
+      const auto  &component = groups[g].spring->component;
+      const auto   n         = normals(groups[g], x);
       SurfaceField of_normals(surface.n_nodes());
       for (; i < places.size() && places[i].group == g; ++i)
         {
@@ -286,12 +281,15 @@ void Springs<dim>::add_energy_gradient(const Field               &positions,
           // neither c nor kappa of a spring at a point depends on the positions
           if (groups[g].spring->place)
             continue;
-          if (is_normal(groups[g]))
+          const auto of_q =
+            factor * (forces_of_w[i] * sum(place, u_here) + forces_of_u[i] * sum(place, w_here));
+          const auto of_x = transpose(component.derivative(sum(place, x))) * of_q;
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            at_surface[nodes[a]] += place.weights[a] * of_x;
+          if (component.is_normal())
             {
               const auto   v      = sum(place, n);
               const double length = v.norm();
-              const auto   of_q   = factor * (forces_of_w[i] * sum(place, u_here) +
-                                          forces_of_u[i] * sum(place, w_here));
               const auto   of_v   = of_q / length - (v * of_q) / std::pow(length, 3) * v;
               for (unsigned int a = 0; a < nodes.size(); ++a)
                 of_normals[nodes[a]] += place.weights[a] * of_v;
@@ -307,7 +305,7 @@ void Springs<dim>::add_energy_gradient(const Field               &positions,
           for (unsigned int a = 0; a < nodes.size(); ++a)
             at_surface[nodes[a]] += values[a];
         }
-      if (is_normal(groups[g]))
+      if (component.is_normal())
         faces::NodalNormals<dim>(surface, groups[g].faces, shape, x)
           .add_transpose(of_normals, at_surface);
     }

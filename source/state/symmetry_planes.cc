@@ -16,11 +16,12 @@ namespace {
 constexpr double least_cosine = 1e-3, most_cosine = 0.99;
 
 /// A boundary with the components that supports hold; is_at_rest if all displacements are zero.
+template <int dim>
 struct Boundary
 {
-  std::string            name; ///< "body.boundary"
-  std::set<unsigned int> components;
-  bool                   is_at_rest = true;
+  std::string                           name; ///< "body.boundary"
+  std::vector<supports::Component<dim>> components;
+  bool                                  is_at_rest = true;
 };
 
 /// A plane of symmetry of a body.
@@ -33,17 +34,18 @@ struct Plane
   std::set<unsigned int> nodes; ///< surface nodes
 };
 
-using Boundaries = std::map<contact::Boundary, Boundary>;
+template <int dim>
+using Boundaries = std::map<contact::Boundary, Boundary<dim>>;
 
 template <int dim>
-Boundaries held_boundaries(const std::vector<supports::Support<dim>> &supports)
+Boundaries<dim> held_boundaries(const std::vector<supports::Support<dim>> &supports)
 {
-  Boundaries result;
+  Boundaries<dim> result;
   for (const auto &support : supports)
     {
       auto &of = result[{support.body, support.boundary}];
       of.name  = support.face;
-      of.components.insert(support.component);
+      of.components.push_back(support.component);
       // A formula counts as nonzero without evaluation, because it may be zero at some points only.
       for (const auto &value : support.values)
         of.is_at_rest = of.is_at_rest && !value;
@@ -54,7 +56,7 @@ Boundaries held_boundaries(const std::vector<supports::Support<dim>> &supports)
 /// Return the plane that a boundary lies on, if it is one and is held along its normal alone.
 template <int dim>
 std::optional<Plane<dim>> plane_of(const contact::Boundary  &side,
-                                   const Boundary           &boundary,
+                                   const Boundary<dim>      &boundary,
                                    const mesh::Surface<dim> &surface,
                                    const unsigned int        degree)
 {
@@ -73,9 +75,12 @@ std::optional<Plane<dim>> plane_of(const contact::Boundary  &side,
             return {};
           plane.nodes.insert(face.nodes[k]);
         }
-  const unsigned int component = *boundary.components.begin();
-  const bool         is_along =
-    component == dim || std::abs(plane.normal[component]) > 1. - least_cosine * least_cosine;
+  const bool is_along =
+    std::all_of(plane.nodes.begin(), plane.nodes.end(), [&](const unsigned int node) {
+      const auto direction =
+        boundary.components.front().direction(surface.reference_positions()[node], plane.normal);
+      return std::abs(plane.normal * direction) > 1. - least_cosine * least_cosine;
+    });
   return is_along && !plane.nodes.empty() ? std::optional(plane) : std::nullopt;
 }
 

@@ -13,6 +13,9 @@ namespace {
 /// A direction is held already if the sine of its angle to the held directions is below this value.
 const double dependent_sine = 1e-6;
 
+/// Distance from an axis, relative to the surface, that is zero but for round-off.
+const double round_off = 1e-10;
+
 /// Prescribed values agree if they differ by less than this fraction of the maximum value.
 const double same_value = 1e-10;
 
@@ -41,15 +44,22 @@ std::vector<Boundary> held_boundaries(const mesh::BodyMesh<dim>            &mesh
   return boundaries;
 }
 
+/// Return "the node (x)".
+template <int dim>
+std::string node_at(const dealii::Tensor<1, dim> &x)
+{
+  std::ostringstream text;
+  text << "the node (" << x << ")";
+  return text.str();
+}
+
 /// Return the error of a design whose supports have become dependent: the optimizer steps back.
 /// Supports that are dependent in the constructor are left out instead.
 template <int dim>
 TangledMesh dependent_error(const dealii::Tensor<1, dim> &x)
 {
-  std::ostringstream text;
-  text << "the design makes the directions of the supports at the node (" << x
-       << ") linearly dependent";
-  return TangledMesh(text.str());
+  return TangledMesh("the design makes the directions of the supports at " + node_at(x) +
+                     " linearly dependent");
 }
 
 /// Return the error that names two conflicting supports and their values.
@@ -60,7 +70,7 @@ InputError conflict(const dealii::Tensor<1, dim>         &x,
 {
   std::ostringstream text;
   text << a.first << " and " << b.first << " prescribe different displacements, " << a.second
-       << " and " << b.second << ", in the same direction at the node (" << x << ")";
+       << " and " << b.second << ", in the same direction at " << node_at(x);
   return InputError(text.str());
 }
 } // namespace
@@ -79,7 +89,7 @@ DirichletConstraints<dim>::DirichletConstraints(const mesh::BodyMesh<dim>       
   const auto            x = surface.gather(positions);
   std::vector<Boundary> normal_boundaries;
   for (const auto &support : supports)
-    if (support.component == Support<dim>::normal)
+    if (support.component.is_normal())
       normal_boundaries.emplace_back(support.body, support.boundary);
   sides        = smooth_sides(surface, normal_boundaries, shape, x);
   side_of_face = std::vector<unsigned int>(surface.faces().size(), 0);
@@ -105,7 +115,8 @@ void DirichletConstraints<dim>::add_hold(Nodes             &found,
   auto &holds = found[node].holds;
   // A node is on several faces of a boundary and of a side, but has one constraint for all of them.
   const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
-    return other.name == hold.name && other.component == hold.component && other.side == hold.side;
+    return other.name == hold.name && other.component.number == hold.component.number &&
+           other.side == hold.side;
   });
   if (!known)
     holds.push_back(hold);
@@ -133,7 +144,7 @@ void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &s
         const auto &face = surface.faces()[f];
         if (face.body != support.body || face.boundary != support.boundary)
           continue;
-        const bool normal = support.component == Support<dim>::normal;
+        const bool normal = support.component.is_normal();
         for (const unsigned int node : face.nodes)
           {
             Hold hold{support.name,
@@ -194,12 +205,11 @@ void DirichletConstraints<dim>::store(const Nodes &found)
     {
       nodes.push_back(entry.second);
       nodes.back().surface_node = entry.first;
-      // Sort axes first, because orthonormalization keeps the first directions as they are.
-      // Directions of axes are constant, so their rows have no derivatives.
+      // Sort constant directions first, because orthonormalization keeps the first directions as
+      // they are. The rows of constant directions have no derivatives.
       std::stable_sort(nodes.back().holds.begin(), nodes.back().holds.end(),
                        [](const Hold &a, const Hold &b) {
-                         const unsigned int normal = Support<dim>::normal;
-                         return a.component != normal && b.component == normal;
+                         return !a.component.follows_positions() && b.component.follows_positions();
                        });
     }
 }
@@ -222,15 +232,22 @@ void DirichletConstraints<dim>::leave_out_dependent(const SurfaceField &position
 {
   const auto   n         = normals(positions);
   const double tolerance = same_value * largest_value();
+  double       size      = 0.;
+  for (const auto &x : positions)
+    size = std::max(size, (x - positions[0]).norm());
   for (Node &node : nodes)
     {
       std::vector<Hold> given;
       given.swap(node.holds);
       for (const Hold &hold : given)
         {
-          const Orthonormalised<dim> before(given_frame(node, n));
+          const auto &x = positions[node.surface_node];
+          if (hold.component.turns() && hold.component.lever(x).norm() <= round_off * size)
+            throw InputError(hold.name + ": " + node_at(x) +
+                             " on the axis has no radial and tangential components");
+          const Orthonormalised<dim> before(given_frame(node, positions, n));
           node.holds.push_back(hold);
-          const auto                 all = given_frame(node, n);
+          const auto                 all = given_frame(node, positions, n);
           const Orthonormalised<dim> with(all);
           if (with.independence() > dependent_sine)
             continue;
@@ -249,12 +266,13 @@ void DirichletConstraints<dim>::leave_out_dependent(const SurfaceField &position
             }
           for (unsigned int c = 0; c < n_load_cases; ++c)
             if (std::abs(implied[c] - hold.values[c]) > tolerance)
-              throw conflict(positions[node.surface_node], {node.holds[nearest].name, implied[c]},
+              throw conflict(x, {node.holds[nearest].name, implied[c]},
                              {hold.name, hold.values[c]});
         }
       for (const Hold &hold : node.holds)
-        node.follows = node.follows || hold.component == Support<dim>::normal;
-      constant_frames.push_back(Orthonormalised<dim>(given_frame(node, n)).frame());
+        node.follows = node.follows || hold.component.follows_positions();
+      any_follows = any_follows || node.follows;
+      constant_frames.push_back(Orthonormalised<dim>(given_frame(node, positions, n)).frame());
     }
 }
 
@@ -269,18 +287,17 @@ DirichletConstraints<dim>::normals(const SurfaceField &positions) const
 }
 
 template <int dim>
-ConstraintFrame<dim> DirichletConstraints<dim>::given_frame(const Node    &node,
-                                                            const Normals &n) const
+ConstraintFrame<dim> DirichletConstraints<dim>::given_frame(const Node         &node,
+                                                            const SurfaceField &positions,
+                                                            const Normals      &n) const
 {
   ConstraintFrame<dim> frame;
   for (const Hold &hold : node.holds)
     {
-      dealii::Tensor<1, dim> direction;
-      if (hold.component == Support<dim>::normal)
-        direction = n[hold.side].normals()[node.surface_node];
-      else
-        direction[hold.component] = 1.;
-      frame.directions.push_back(direction);
+      dealii::Tensor<1, dim> normal;
+      if (hold.component.is_normal())
+        normal = n[hold.side].normals()[node.surface_node];
+      frame.directions.push_back(hold.component.direction(positions[node.surface_node], normal));
       frame.values.push_back(hold.values);
     }
   return frame;
@@ -310,7 +327,7 @@ DirichletConstraints<dim>::frames(const Field &positions) const
   for (unsigned int i = 0; i < nodes.size(); ++i)
     if (nodes[i].follows)
       {
-        const Orthonormalised<dim> constraints(given_frame(nodes[i], n));
+        const Orthonormalised<dim> constraints(given_frame(nodes[i], x, n));
         // The condition is written so that it also catches NaN.
         if (!(constraints.independence() > dependent_sine))
           throw dependent_error(x[nodes[i].surface_node]);
@@ -353,14 +370,15 @@ DirichletConstraints<dim>::frame_derivatives(const Field &positions, const Field
         ConstraintFrame<dim> derivative;
         for (const Hold &hold : nodes[i].holds)
           {
-            derivative.directions.push_back(hold.component == Support<dim>::normal
-                                              ? dn[hold.side][nodes[i].surface_node]
-                                              : dealii::Tensor<1, dim>());
+            const unsigned int node = nodes[i].surface_node;
+            derivative.directions.push_back(hold.component.is_normal()
+                                              ? dn[hold.side][node]
+                                              : hold.component.derivative(x[node]) * V[node]);
             // Prescribed displacements are functions of the reference position, so their
             // derivatives are 0.
             derivative.values.emplace_back(n_load_cases, 0.);
           }
-        result[i] = Orthonormalised<dim>(given_frame(nodes[i], n)).derivative(derivative);
+        result[i] = Orthonormalised<dim>(given_frame(nodes[i], x, n)).derivative(derivative);
       }
   return result;
 }

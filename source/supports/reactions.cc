@@ -16,20 +16,25 @@ void DirichletConstraints<dim>::add_energy_gradient(
   const auto                u = surface.gather(displacement);
   const auto                n = normals(x);
   std::vector<SurfaceField> normal_gradients(sides.size(), SurfaceField(surface.n_nodes()));
+  SurfaceField              at_surface(surface.n_points());
   for (unsigned int i = 0; i < nodes.size(); ++i)
     if (nodes[i].follows)
       {
         const Node &node = nodes[i];
-        // Reactions belong to orthonormal directions, but normals are among the given directions.
-        // Add the derivative of d_j . u - v_j with constant v_j, where d_j are the normals.
+        // Reactions belong to orthonormal directions, but normals and the directions about an axis
+        // are given directions d_j. Add the derivative of d_j . u - v_j with constant v_j.
         const auto multipliers =
-          Orthonormalised<dim>(given_frame(node, n)).given_multipliers(reactions[i]);
+          Orthonormalised<dim>(given_frame(node, x, n)).given_multipliers(reactions[i]);
         for (unsigned int j = 0; j < node.holds.size(); ++j)
-          if (node.holds[j].component == Support<dim>::normal)
-            normal_gradients[node.holds[j].side][node.surface_node] +=
-              multipliers[j] * u[node.surface_node];
+          {
+            const Hold &hold = node.holds[j];
+            const auto  of_d = multipliers[j] * u[node.surface_node];
+            at_surface[node.surface_node] +=
+              transpose(hold.component.derivative(x[node.surface_node])) * of_d;
+            if (hold.component.is_normal())
+              normal_gradients[hold.side][node.surface_node] += of_d;
+          }
       }
-  SurfaceField at_surface(surface.n_points());
   for (unsigned int side = 0; side < sides.size(); ++side)
     n[side].add_transpose(normal_gradients[side], at_surface);
   surface.add_owned(at_surface, gradient);
@@ -48,7 +53,7 @@ DirichletConstraints<dim>::forces(const Field                            &positi
   std::vector<Force> result;
   for (unsigned int i = 0; i < nodes.size(); ++i)
     {
-      const auto frame       = given_frame(nodes[i], n);
+      const auto frame       = given_frame(nodes[i], x, n);
       const auto multipliers = Orthonormalised<dim>(frame).given_multipliers(reactions[i]);
       for (unsigned int j = 0; j < multipliers.size(); ++j)
         // From K u + B'lambda = f, a multiplier acts against its direction.
@@ -66,16 +71,17 @@ dealii::Tensor<2, dim> DirichletConstraints<dim>::reaction_directions(
   const unsigned int held_node = find(global_node);
   if (held_node == n_nodes())
     return {};
-  const std::vector<Hold> &holds = nodes[held_node].holds;
-  const auto has_normal = [&](const Hold &hold) { return hold.component == Support<dim>::normal; };
-  const auto first_normal = std::find_if(holds.begin(), holds.end(), has_normal);
-  dealii::Tensor<2, dim> of_axes, of_others;
-  for (const Hold &hold : holds)
-    if (!has_normal(hold))
-      (hold.boundary == boundary ? of_axes : of_others)[hold.component][hold.component] = 1.;
-  if (first_normal != holds.end() && first_normal->boundary == boundary)
-    return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
-  return of_axes;
+  // Constant directions come first, so that they are orthonormal among themselves.
+  const auto            &q = constant_frames[held_node].directions;
+  dealii::Tensor<2, dim> of_boundary, of_others;
+  for (unsigned int j = 0; j < q.size(); ++j)
+    if (const Hold &hold = nodes[held_node].holds[j]; !hold.component.follows_positions())
+      (hold.boundary == boundary ? of_boundary : of_others) += outer_product(q[j], q[j]);
+    else if (hold.boundary == boundary)
+      return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
+    else
+      break;
+  return of_boundary;
 }
 
 #define SNUG_INSTANTIATE(dim)                                                                \

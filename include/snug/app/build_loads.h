@@ -13,6 +13,12 @@ template <int dim>
 std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &scene,
                                                    const mesh::BodyMesh<dim> &mesh);
 
+/// Return component @p number of a body.
+/// @throws InputError for components about an axis in axisymmetric models.
+template <int dim>
+supports::Component<dim>
+build_component(const scene::Scene &scene, unsigned int body, unsigned int number);
+
 /// Return the conditions that hold the bodies: supports, and the displacements that bodies and
 /// load cases prescribe.
 template <int dim>

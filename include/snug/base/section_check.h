@@ -2,7 +2,9 @@
 #define snug_base_section_check_h
 
 #include <snug/base/entries.h>
+#include <snug/base/statements.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,25 @@ public:
   {
     if (!good)
       throw error(entry, value, allowed, suggestion);
+  }
+
+  /// Return read(text, dimension), whose std::invalid_argument is thrown as the error of the entry
+  /// that contains @p text. @p what stands before its message.
+  template <typename Read>
+  auto read(const std::string &entry,
+            const std::string &value,
+            const std::string &what,
+            const Read        &read_text,
+            const std::string &text) const
+  {
+    try
+      {
+        return read_text(text, dimension);
+      }
+    catch (const std::invalid_argument &wrong)
+      {
+        throw error(entry, value, what + quotable(wrong.what()));
+      }
   }
 
   /// Return an error "entry 'Box cells' = ..." of a module with origin and section of the entry

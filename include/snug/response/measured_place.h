@@ -3,6 +3,7 @@
 
 #include <snug/response/response_parameters.h>
 #include <snug/state/state_solver.h>
+#include <snug/supports/component.h>
 
 #include <utility>
 #include <vector>
@@ -13,10 +14,16 @@ namespace snug::response {
 template <int dim>
 dealii::Tensor<1, dim> unit_vector(const ResponseParameters &parameters);
 
-/// Return the axis x, y or z of a moment; in the plane it is z.
+/// Return 'Component' on the body of 'Face', in the frame of the body.
+/// @throws InputError for components that the model does not have.
+template <int dim>
+supports::Component<dim> component_of(const state::StateSolver<dim> &solver,
+                                      const ResponseParameters      &parameters);
+
+/// Return the axis x, y or z of a moment or a rotation; in the plane it is z.
 /// @throws InputError for other names.
 template <int dim>
-dealii::Tensor<1, 3> moment_axis(const ResponseParameters &parameters);
+dealii::Tensor<1, 3> axis_of(const ResponseParameters &parameters);
 
 /// Return (body, boundary) of the face "body.boundary".
 /// @throws InputError if there is no such boundary.

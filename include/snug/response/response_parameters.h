@@ -17,7 +17,10 @@ enum class Component
   normal,
   x,
   y,
-  z
+  z,
+  radial,
+  tangential,
+  axial
 };
 inline Names names(Component)
 {
@@ -25,7 +28,10 @@ inline Names names(Component)
                      "contact forces"},
           {"x"},
           {"y"},
-          {"z"}};
+          {"z"},
+          {"radial", "for faces and reactions, along the radius about the 'Axis' of the body"},
+          {"tangential", "around the axis"},
+          {"axial", "along the axis"}};
 }
 
 /// Entries of `subsection Response NAME`, or the defaults of a response that is named by its

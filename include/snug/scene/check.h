@@ -48,9 +48,6 @@ void require_face(const Scene        &scene,
                   const std::string  &entry,
                   const std::string  &value,
                   const std::string  &face);
-
-/// Return the component names as text, like "components are x, y and normal".
-std::string component_names(unsigned int dimension);
 } // namespace snug::scene
 
 #endif

@@ -62,7 +62,10 @@ struct Body
   /// region -> name of its material; "" is the whole body
   std::map<std::string, std::string> materials;
   elasticity::Formulation            formulation = elasticity::Formulation::standard;
-  /// boundary -> components held at zero: words made of "xyz", "normal"
+  /// axis of the radial, tangential and axial components: direction of any length, and point
+  /// [length]; empty: z through the origin
+  std::vector<double> axis, axis_point;
+  /// boundary -> components held at zero: words made of "xyz", "normal", "radial", ...
   std::map<std::string, std::string> supports;
   /// boundary -> 'components = value at x y z', see point_hold()
   std::vector<std::pair<std::string, std::string>> point_supports;
@@ -144,11 +147,12 @@ mesh::Idealization idealization(const Scene &scene);
 /// Return "body.boundary" as {body, boundary}; without a dot, boundary is "".
 std::pair<std::string, std::string> split_face(const std::string &face);
 
-/// Return the number of a displacement component: 0, 1, 2 for x, y, z and dimension for the
-/// normal; nothing for other names.
-std::optional<unsigned int> component_number(const std::string &name, unsigned int dimension);
+/// Return the number of a displacement component: 0, 1, 2 for x, y, z and dimension + 0, 1, 2, 3
+/// for normal, radial, tangential and axial.
+/// @throws std::invalid_argument with a message that lists the names, for other names.
+unsigned int component_number(const std::string &name, unsigned int dimension);
 
-/// Return the component numbers of "xy", "normal" or "normal z".
+/// Return the component numbers of "xy", "normal" or "tangential z".
 /// @throws std::invalid_argument with a message that states the error in the components.
 std::vector<unsigned int> component_list(const std::string &words, unsigned int dimension);
 

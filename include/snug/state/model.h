@@ -24,6 +24,7 @@ struct BodyModel
 {
   std::vector<elasticity::Material> materials; ///< per region
   elasticity::Formulation           formulation = elasticity::Formulation::standard;
+  supports::Axis<dim>               axis        = {}; ///< of radial, tangential, axial components
 
   const elasticity::Material &material(const typename mesh::BodyMesh<dim>::Cell &cell) const
   {

@@ -90,7 +90,6 @@ private:
   void   add_sides(const supports::Spring<dim> &spring, const SurfaceField &x);
   void   add_point(const supports::Spring<dim> &spring);
   void   set_scales(const SurfaceField &x);
-  bool   is_normal(const Group &group) const;
   Nodes  at_face(unsigned int face, const SurfaceField &x) const;
   double stiffness(const Place        &place,
                    const SurfaceField &x,

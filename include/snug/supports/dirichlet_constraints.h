@@ -12,10 +12,11 @@
 namespace snug::supports {
 /**
  * This class collects the nodes that supports hold and the directions held there, as functions of
- * the node positions. Directions are axes, and the nodal normals of faces held along their normal.
- * In axisymmetric models the axis holds u_r. The constraints of each node are made orthonormal,
- * axes before normals, each in the order of the supports. A constraint whose direction the others
- * hold already is left out. Hanging nodes follow their masters and are not held themselves.
+ * the node positions. Directions are those of components (Component), where the normal is the nodal
+ * normal of the held face. In axisymmetric models the axis holds u_r. The constraints of each node
+ * are made orthonormal, constant directions before those that follow the positions, each in the
+ * order of the supports. A constraint whose direction the others hold already is left out. Hanging
+ * nodes follow their masters and are not held themselves.
  *
  * A nodal normal belongs to a *side*, a smooth patch of faces. Two faces that share a node belong
  * to one side if their normals there are less than 40 degrees apart, unless they lie on different
@@ -33,7 +34,8 @@ public:
 
   /// Collect the constraints. @p mesh must outlive this object. Collective.
   /// @throws InputError naming two supports that hold a node in one direction at different
-  /// displacements, or a point support without a node.
+  /// displacements, a point support without a node, or a support that holds a node on the axis of
+  /// its radial or tangential component.
   DirichletConstraints(const mesh::BodyMesh<dim>            &mesh,
                        const std::vector<Support<dim>>      &supports,
                        unsigned int                          n_load_cases,
@@ -45,10 +47,11 @@ public:
   /// Return the held node with this global node, or n_nodes() if the node is not held.
   unsigned int find(unsigned int global_node) const;
 
-  /// Return whether the directions of a node follow the positions (normals are held).
+  /// Return whether the directions of a node follow the positions (normals, radial or
+  /// tangential components are held).
   bool follows_positions(unsigned int held_node) const { return nodes[held_node].follows; }
   /// Return whether the directions of any node follow the positions.
-  bool follow_positions() const { return !sides.empty(); }
+  bool follow_positions() const { return any_follows; }
 
   /// Return the orthonormal constraints at @p positions. Collective.
   /// @throws TangledMesh where held directions have become dependent.
@@ -74,8 +77,8 @@ public:
 
   /// Return the projection to the directions of a node in which its reaction is that of the
   /// supports of a @p boundary (body, boundary): zero if they do not hold the node, otherwise all
-  /// directions but the axes that supports of other boundaries hold. If several boundaries hold
-  /// normals, the first one has the reaction.
+  /// directions but the constant ones that supports of other boundaries hold. If several boundaries
+  /// hold directions that follow the positions, the first one has the reaction.
   dealii::Tensor<2, dim>
   reaction_directions(unsigned int                                 global_node,
                       const std::pair<unsigned int, unsigned int> &boundary) const;
@@ -100,11 +103,11 @@ private:
   /// One constraint of a node.
   struct Hold
   {
-    std::string         name;      ///< name of the support
-    std::string         face;      ///< face of the support; "" for the axis
-    unsigned int        component; ///< axis, or Support::normal
-    unsigned int        side;      ///< side to which the normal belongs
-    std::vector<double> values;    ///< per load case [length]
+    std::string         name; ///< name of the support
+    std::string         face; ///< face of the support; "" for the axis
+    Component<dim>      component;
+    unsigned int        side;   ///< side to which the normal belongs
+    std::vector<double> values; ///< per load case [length]
     /// body and boundary of the support; none for the axis
     std::optional<std::pair<unsigned int, unsigned int>> boundary = {};
   };
@@ -118,18 +121,19 @@ private:
 
   using Nodes = std::map<unsigned int, Node>; ///< by surface node
 
-  void                 collect_holds(const std::vector<Support<dim>> &supports,
-                                     const SurfaceField              &reference,
-                                     Nodes                           &found) const;
-  void                 collect_points(const std::vector<PointSupport<dim>> &points,
-                                      const SurfaceField                   &reference,
-                                      Nodes                                &found) const;
-  void                 add_hold(Nodes &found, unsigned int node, const Hold &hold) const;
-  void                 store(const Nodes &found);
-  void                 leave_out_dependent(const SurfaceField &positions);
-  double               largest_value() const;
-  Normals              normals(const SurfaceField &positions) const;
-  ConstraintFrame<dim> given_frame(const Node &node, const Normals &normals) const;
+  void    collect_holds(const std::vector<Support<dim>> &supports,
+                        const SurfaceField              &reference,
+                        Nodes                           &found) const;
+  void    collect_points(const std::vector<PointSupport<dim>> &points,
+                         const SurfaceField                   &reference,
+                         Nodes                                &found) const;
+  void    add_hold(Nodes &found, unsigned int node, const Hold &hold) const;
+  void    store(const Nodes &found);
+  void    leave_out_dependent(const SurfaceField &positions);
+  double  largest_value() const;
+  Normals normals(const SurfaceField &positions) const;
+  ConstraintFrame<dim>
+  given_frame(const Node &node, const SurfaceField &positions, const Normals &normals) const;
 
   const mesh::BodyMesh<dim>             &mesh;
   const faces::FaceShape<dim>            shape;
@@ -138,6 +142,7 @@ private:
   std::vector<std::vector<unsigned int>> sides; ///< surface faces per side
   std::vector<unsigned int>              side_of_face;
   std::vector<Node>                      nodes;
+  bool                                   any_follows = false;
   Frames                                 constant_frames;
 };
 } // namespace snug::supports

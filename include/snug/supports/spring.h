@@ -1,7 +1,7 @@
 #ifndef snug_supports_spring_h
 #define snug_supports_spring_h
 
-#include <deal.II/base/point.h>
+#include <snug/supports/component.h>
 
 #include <functional>
 #include <optional>
@@ -12,8 +12,8 @@ namespace snug::supports {
 template <int dim>
 struct Spring
 {
-  unsigned int body, boundary;
-  unsigned int component; ///< 0, 1, 2: x, y, z; or Support::normal
+  unsigned int   body, boundary;
+  Component<dim> component;
   /// stiffness per area as a function of the reference position [force / length^3], at a point the
   /// stiffness there [force / length]
   std::function<double(const dealii::Point<dim> &)> stiffness;

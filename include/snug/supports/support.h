@@ -1,7 +1,7 @@
 #ifndef snug_supports_support_h
 #define snug_supports_support_h
 
-#include <deal.II/base/point.h>
+#include <snug/supports/component.h>
 
 #include <functional>
 #include <string>
@@ -12,11 +12,8 @@ namespace snug::supports {
 template <int dim>
 struct Support
 {
-  /// Component number that stands for the nodal normal, which points outwards.
-  static constexpr unsigned int normal = dim;
-
-  unsigned int body, boundary;
-  unsigned int component; ///< 0, 1, 2: x, y, z; or normal
+  unsigned int   body, boundary;
+  Component<dim> component; ///< the normal is the nodal normal, which points outwards
   /// Prescribed displacement [length] per load case as a function of the reference position. An
   /// empty function means zero.
   std::vector<std::function<double(const dealii::Point<dim> &)>> values;
@@ -29,7 +26,7 @@ template <int dim>
 struct PointSupport
 {
   unsigned int       body, boundary;
-  unsigned int       component; ///< 0, 1, 2: x, y, z
+  Component<dim>     component; ///< not the normal
   double             value;     ///< prescribed displacement [length]
   dealii::Point<dim> place;     ///< reference position of the node
   std::string        name;      ///< as the user wrote it, for messages

@@ -34,8 +34,8 @@ using Constraints = supports::DirichletConstraints<3>;
 Constraints normal_supports(const mesh::BodyMesh<3> &mesh)
 {
   return Constraints(mesh,
-                     {support(mesh, "outer", Support<3>::normal),
-                      support(mesh, "bottom", Support<3>::normal)},
+                     {support(mesh, "outer", supports::Component<3>::normal),
+                      support(mesh, "bottom", supports::Component<3>::normal)},
                      1, mesh.reference_positions());
 }
 } // namespace
@@ -117,7 +117,7 @@ TEST(DirichletConstraints, AxesAreHeldOnceHoweverOften)
   const mesh::BodyMesh<3> mesh(MPI_COMM_SELF, {half_ball()}, 2);
   const Constraints       constraints(mesh,
                                       {support(mesh, "bottom", 2), support(mesh, "bottom", 0),
-                                       support(mesh, "bottom", Support<3>::normal)},
+                                       support(mesh, "bottom", supports::Component<3>::normal)},
                                       1, mesh.reference_positions());
   for (const auto &frame : constraints.frames(mesh.reference_positions()))
     {
