@@ -1,5 +1,6 @@
 #include <snug/deck/local_axes.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace snug::deck {
@@ -36,7 +37,7 @@ LocalAxes::LocalAxes(const mesh_file::DeckText &text, const mesh_file::DeckMesh 
         const auto type = upper_case(keyword.option("TYPE"));
         numbers.resize(6, 0.);
         Axes       of{type == "C", Point(numbers[0], numbers[1], numbers[2]),
-                Point(numbers[3], numbers[4], numbers[5])};
+                Point(numbers[3], numbers[4], numbers[5]), keyword.line};
         const bool is_regular =
           of.is_cylindrical ? of.a.distance(of.b) > 0. : cross_product_3d(of.a, of.b).norm() > 0.;
         if ((!type.empty() && type != "R" && type != "C") || !is_regular)
@@ -85,29 +86,33 @@ std::optional<std::pair<unsigned int, double>> LocalAxes::axis(const std::set<un
   return {};
 }
 
+std::optional<LocalAxes::Axes> LocalAxes::cylinder(const std::set<unsigned int> &nodes) const
+{
+  std::optional<Axes> result;
+  for (const unsigned int node : nodes)
+    {
+      const auto found = of_nodes.find(node);
+      if (found == of_nodes.end() || !axes[found->second].is_cylindrical ||
+          direction(node, 0).norm() == 0. || (result && !(*result == axes[found->second])))
+        return {};
+      result = axes[found->second];
+    }
+  return result;
+}
+
 bool LocalAxes::is_normal(const std::vector<unsigned int> &corners,
                           const unsigned int               component) const
 {
   const double least_cosine = std::cos(5. * dealii::numbers::PI / 180.);
   const auto  &points       = deck.mesh.points;
-  const auto   of           = of_nodes.find(corners[0]);
-  if (of == of_nodes.end())
-    return false;
-  Point centre;
-  for (const unsigned int corner : corners)
-    {
-      // A corner may have equal axes of another *TRANSFORM.
-      const auto other = of_nodes.find(corner);
-      if (other == of_nodes.end() || !are_equal(axes[other->second], axes[of->second]))
-        return false;
-      centre += points[corner] / static_cast<double>(corners.size());
-    }
-  const auto direction = direction_at(axes[of->second], centre, component);
   // A plane face has the cross products of its edges, and the normal of an edge is in the plane x,
   // y.
   const auto along = points[corners[1]] - points[corners[0]];
   const auto other =
     corners.size() > 2 ? points[corners[2]] - points[corners[0]] : Direction({0., 0., 1.});
-  return std::abs(direction * unit(dealii::cross_product_3d(along, other))) > least_cosine;
+  const auto normal = unit(dealii::cross_product_3d(along, other));
+  return std::all_of(corners.begin(), corners.end(), [&](const unsigned int corner) {
+    return has(corner) && std::abs(direction(corner, component) * normal) > least_cosine;
+  });
 }
 } // namespace snug::deck

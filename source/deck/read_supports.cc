@@ -96,13 +96,12 @@ private:
             const std::vector<unsigned int> &components,
             const DeckModel::Given          &given)
   {
-    auto      &step    = reading.current();
-    auto       nodes   = reading.bodies.nodes_without_face(set);
-    const auto n_nodes = nodes.size();
+    auto      &step           = reading.current();
+    auto       nodes          = reading.bodies.nodes_without_face(set);
+    const bool has_cell_nodes = !nodes.empty();
+    const bool is_full        = given.value == 0. && components.size() == dim;
     reading.bodies.use(set);
-    for (auto node = nodes.begin(); node != nodes.end();)
-      node = reading.bodies.body_at(*node) ? std::next(node) : nodes.erase(node);
-    if (nodes.size() < n_nodes)
+    if (drop_inner(nodes, set))
       reading.lacks(keyword, " of nodes inside of a body", given.line);
     if (set.find_first_of(",:;=#\\+") != std::string::npos || reading.bodies.use(set))
       {
@@ -110,37 +109,76 @@ private:
           return;
         const auto &of_set = reading.deck.mesh.optional_boundaries.at(set).nodes;
         for (const unsigned int c : components)
-          if (const auto axis = reading.axes.axis(of_set, c); axis && axis->first < dim)
+          if (const auto along = component(of_set, c, is_full, reading.bodies.bodies_of(set)))
             step.prescribed.push_back(
-              {set, axis->first, axis->second * given.value, given.line, reading.n_steps});
-          else if (given.value == 0. && components.size() == dim)
-            step.prescribed.push_back({set, c, 0., given.line, reading.n_steps});
+              {set, along->first, along->second * given.value, given.line, reading.n_steps});
           else if (given.value == 0. && is_normal(set, c))
             step.prescribed.push_back({set, 3, 0., given.line, reading.n_steps});
           else
             reading.lacks(keyword,
                           " along axes of *TRANSFORM that are neither coordinate axes nor "
-                          "normals of the faces",
+                          "normals of the faces nor of one cylinder of the body",
                           given.line);
       }
     for (const unsigned int node : nodes)
       for (const unsigned int c : components)
-        if (const auto axis = reading.axes.axis({node}, c); axis && axis->first < dim)
-          step.held_nodes[{node, axis->first}] = {axis->second * given.value, given.line,
-                                                  reading.n_steps};
-        else if (given.value == 0. && components.size() == dim)
-          step.held_nodes[{node, c}] = given;
+        if (const auto along = component({node}, c, is_full, {*reading.bodies.body_at(node)}))
+          step.held_nodes[{node, along->first}] = {along->second * given.value, given.line,
+                                                   reading.n_steps};
         else
-          reading.lacks(keyword, " of nodes along axes of *TRANSFORM that are no coordinate axes",
+          reading.lacks(keyword,
+                        " of nodes along axes of *TRANSFORM that are neither coordinate axes nor "
+                        "those of one cylinder of the body",
                         given.line);
     if (!nodes.empty())
       reading.remarks.replaced("point supports for nodes of " + title_of(keyword) +
                                  " that are not those of whole faces; stresses there depend on the "
                                  "mesh",
                                given.line);
-    else if (!reading.bodies.use(set) && n_nodes == 0)
+    else if (!reading.bodies.use(set) && !has_cell_nodes)
       reading.remarks.not_needed(title_of(keyword) + " of nodes that belong to no cell",
                                  given.line);
+  }
+
+  /// Erase the nodes that lie on no outer face. Return whether their supports are needed: if all
+  /// faces of a body are held equally, they hold its inside as well.
+  bool drop_inner(std::set<unsigned int> &nodes, const std::string &set) const
+  {
+    bool is_whole = true;
+    for (const unsigned int b : reading.bodies.bodies_of(set))
+      is_whole =
+        is_whole && reading.bodies.faces_on(b, set).size() == reading.bodies.all()[b].outer.size();
+    bool is_needed = false;
+    for (auto node = nodes.begin(); node != nodes.end();)
+      if (reading.bodies.body_at(*node))
+        ++node;
+      else
+        {
+          is_needed = is_needed || !is_whole || reading.bodies.bodies_of(set).empty();
+          node      = nodes.erase(node);
+        }
+    return is_needed;
+  }
+
+  /// Return the component of the scene along local component @p c at the nodes of @p bodies, and
+  /// its sign, or nothing. Components about an axis become those of the bodies. @p is_full: nodes
+  /// that are held in all components need no local ones.
+  std::optional<std::pair<unsigned int, double>> component(const std::set<unsigned int>    &nodes,
+                                                           const unsigned int               c,
+                                                           const bool                       is_full,
+                                                           const std::vector<unsigned int> &bodies)
+  {
+    if (is_full)
+      return std::make_pair(c, 1.);
+    if (const auto axis = reading.axes.axis(nodes, c); axis && axis->first < dim)
+      return axis;
+    const auto round = reading.axes.cylinder(nodes);
+    if (dim == 2 || !round)
+      return {};
+    for (const unsigned int b : bodies)
+      if (!(reading.model.cylinders.emplace(b, *round).first->second == *round))
+        return {};
+    return std::make_pair(4 + c, 1.);
   }
 
   bool is_normal(const std::string &set, const unsigned int component) const

@@ -91,7 +91,8 @@ private:
 
   static std::string component_name(const unsigned int c)
   {
-    return c == 3 ? "normal" : std::string(1, "xyz"[c]);
+    const char *const names[] = {"x", "y", "z", "normal", "radial", "tangential", "axial"};
+    return names[c];
   }
 
   /// Return what a step prescribes on the boundaries of a body. Of several values the last one
@@ -143,13 +144,18 @@ private:
               }
             if (!is_zero)
               continue;
-            text += (c == 3 && !text.empty() ? " " : "") + component_name(c);
+            text += (c >= 3 && !text.empty() ? " " : "") + component_name(c);
             supports.add_line(given->line);
           }
         if (!text.empty())
           supports.add(boundary + ": " + text);
       }
     result.of_bodies[b].insert(result.of_bodies[b].begin(), supports);
+    if (const auto of = model.cylinders.find(b); of != model.cylinders.end())
+      for (const auto &[name, v] : {std::pair("Axis", of->second.b - of->second.a),
+                                    std::pair("Axis point", of->second.a - dealii::Point<3>())})
+        result.of_bodies[b].push_back(
+          {name, to_text(std::vector{v[0], v[1], v[2]}, ' '), {of->second.line}});
   }
 
   /// Add the supports of nodes, which must be the same in all steps.

@@ -2,6 +2,7 @@
 #define snug_deck_deck_model_h
 
 #include <snug/deck/deck_bodies.h>
+#include <snug/deck/local_axes.h>
 #include <snug/deck/remarks.h>
 
 #include <optional>
@@ -23,7 +24,7 @@ struct DeckModel
   struct PrescribedComponent
   {
     std::string   set;
-    unsigned int  component; ///< 0, 1, 2: x, y, z; 3: along the normal
+    unsigned int  component; ///< 0, 1, ...: x, y, z, normal, radial, tangential, axial
     double        value;
     unsigned long line;
     unsigned int  step; ///< in which it is given
@@ -136,14 +137,15 @@ struct DeckModel
   std::vector<Step>                    steps;         ///< in the order of the deck
   std::map<unsigned int, double>       initial_temperatures; ///< by node
   std::vector<Spring>                  springs;
-  std::vector<Interaction>             interactions;
-  std::vector<Contact>                 contacts;
-  std::vector<RigidBody>               rigid_bodies;
-  std::vector<Obstacle>                obstacles;
-  std::optional<double>                thickness;
-  std::string                          model  = "solid";
-  unsigned int                         degree = 1;
-  std::string                          units; ///< "mm, N", or ""
+  std::map<unsigned int, LocalAxes::Axes> cylinders; ///< body -> axis of its components 4 to 6
+  std::vector<Interaction>                interactions;
+  std::vector<Contact>                    contacts;
+  std::vector<RigidBody>                  rigid_bodies;
+  std::vector<Obstacle>                   obstacles;
+  std::optional<double>                   thickness;
+  std::string                             model  = "solid";
+  unsigned int                            degree = 1;
+  std::string                             units; ///< "mm, N", or ""
 
   /// Return the coefficient of friction of a contact; 0 for ties.
   double friction(const Contact &contact) const

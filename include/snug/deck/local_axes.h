@@ -27,26 +27,30 @@ public:
   std::optional<std::pair<unsigned int, double>> axis(const std::set<unsigned int> &nodes,
                                                       unsigned int component) const;
 
-  /// Return whether a component has the direction of the normal of a face, up to 5 degrees, as the
-  /// flat faces of a round surface have.
+  /// Return whether a component has the direction of the normal of a face at all its corners, up to
+  /// 5 degrees, as the flat faces of a round surface have.
   bool is_normal(const std::vector<unsigned int> &corners, unsigned int component) const;
 
-private:
   struct Axes
   {
     bool             is_cylindrical;
     dealii::Point<3> a, b; ///< points on the first axis and in the plane of the second one, or
                            ///< points on the axis of the cylinder
+    unsigned long line;    ///< of *TRANSFORM
+
+    bool operator==(const Axes &other) const
+    {
+      return is_cylindrical == other.is_cylindrical && a == other.a && b == other.b;
+    }
   };
 
+  /// Return the axes of a cylinder that all nodes have, none of which is on its axis, or nothing.
+  std::optional<Axes> cylinder(const std::set<unsigned int> &nodes) const;
+
+private:
   const mesh_file::DeckMesh           &deck;
   std::vector<Axes>                    axes;
   std::map<unsigned int, unsigned int> of_nodes; ///< node -> index of its axes
-
-  static bool are_equal(const Axes &one, const Axes &other)
-  {
-    return one.is_cylindrical == other.is_cylindrical && one.a == other.a && one.b == other.b;
-  }
 
   Direction direction_at(const Axes &of, const dealii::Point<3> &x, unsigned int component) const;
 };
