@@ -63,9 +63,22 @@ def arrows_of(model, kind, boundary, text):
         component, _, formula = text.partition("=")
         axis = component.strip()
         along = normals if axis == "normal" else np.tile(
-            np.eye(3)["xyz".index(axis)], (len(middles), 1))
+            np.eye(3)["xyz".index(axis)], (len(middles), 1)) if axis in "xyz" else about_axis(
+                model.parameters.section(f"Body {boundary.partition('.')[0]}"), axis, middles)
         return middles, along * value_of(formula, middles)[:, None]
     return middles, components(text.split(), middles)
+
+
+def about_axis(entries, component, places):
+    """Return the radial, tangential or axial directions about the axis of a body."""
+    axis, point = (vector((entries.get(key) or default).replace(",", " "))
+                   for key, default in (("Axis", "0 0 1"), ("Axis point", "0 0 0")))
+    axis = axis / np.linalg.norm(axis)
+    lever = places - point
+    lever = lever - np.outer(lever @ axis, axis)
+    radial = lever / np.linalg.norm(lever, axis=1)[:, None]
+    return {"radial": radial, "tangential": np.cross(axis, radial),
+            "axial": np.tile(axis, (len(places), 1))}[component]
 
 
 def components(formulas, places):

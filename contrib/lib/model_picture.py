@@ -186,8 +186,9 @@ def draw_supports(axis, model, most):
             for boundary, held in items_of(entries.get(kind, "")):
                 name = f"{body}.{boundary}"
                 middles, normals = model.places(name, most)
-                shown = "s" if kind == "Supports" and len(held.split(" ")[0]) >= 2 and \
-                    "normal" not in held else marker
+                first = held.split(" ")[0]
+                shown = "s" if kind == "Supports" and len(first) >= 2 and \
+                    set(first) <= set("xyz") else marker
                 if not model.flat:
                     draw_boundary(axis, model, name, HELD, 2.)
                 places = model.view.project(middles + .1 * model.length * normals)
