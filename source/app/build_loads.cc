@@ -327,23 +327,6 @@ std::vector<state::LoadCase<dim>> build_load_cases(const scene::Scene        &sc
 }
 
 template <int dim>
-supports::Component<dim>
-build_component(const scene::Scene &scene, const unsigned int body, const unsigned int number)
-{
-  const auto &of_body = scene.bodies[body];
-  if (number > dim && scene::idealization(scene).is_axisymmetric())
-    throw bad_entry("Model", "axisymmetric",
-                    "does not allow the radial and tangential components of '" + of_body.name +
-                      "'");
-  supports::Axis<dim> axis{dealii::Point<dim>(to_tensor<dim>(of_body.axis_point)),
-                           to_tensor<dim>(of_body.axis)};
-  if (of_body.axis.empty())
-    axis.direction[dim - 1] = 1.;
-  axis.direction /= axis.direction.norm();
-  return {number, axis};
-}
-
-template <int dim>
 std::vector<supports::Support<dim>> build_supports(const scene::Scene        &scene,
                                                    const mesh::BodyMesh<dim> &mesh)
 {
@@ -387,17 +370,15 @@ std::vector<supports::Support<dim>> build_supports(const scene::Scene        &sc
   return supports;
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                        \
-  template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,                     \
-                                                           const mesh::BodyMesh<dim> &,              \
-                                                           const std::string &);                     \
-  template supports::Component<dim>              build_component(const scene::Scene &, unsigned int, \
-                                                                 unsigned int);                      \
-  template contact::Side find_side(const scene::Scene &, const mesh::BodyMesh<dim> &,                \
-                                   const std::string &);                                             \
-  template std::vector<state::LoadCase<dim>>   build_load_cases(const scene::Scene &,                \
-                                                                const mesh::BodyMesh<dim> &);        \
-  template std::vector<supports::Support<dim>> build_supports(const scene::Scene &,                  \
+#define SNUG_INSTANTIATE(dim)                                                                 \
+  template std::pair<unsigned int, unsigned int> find_face(const scene::Scene &,              \
+                                                           const mesh::BodyMesh<dim> &,       \
+                                                           const std::string &);              \
+  template contact::Side find_side(const scene::Scene &, const mesh::BodyMesh<dim> &,         \
+                                   const std::string &);                                      \
+  template std::vector<state::LoadCase<dim>>   build_load_cases(const scene::Scene &,         \
+                                                                const mesh::BodyMesh<dim> &); \
+  template std::vector<supports::Support<dim>> build_supports(const scene::Scene &,           \
                                                               const mesh::BodyMesh<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

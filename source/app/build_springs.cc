@@ -7,6 +7,24 @@
 
 namespace snug::app {
 template <int dim>
+supports::Component<dim>
+build_component(const scene::Scene &scene, const unsigned int body, const unsigned int number)
+{
+  const auto &of_body = scene.bodies[body];
+  if (number > dim && scene::idealization(scene).is_axisymmetric())
+    throw bad_entry("Model", "axisymmetric",
+                    "does not allow the radial and tangential components of '" + of_body.name +
+                      "'");
+  supports::Axis<dim> axis{{}, dealii::Point<dim>::unit_vector(dim - 1)};
+  if (!of_body.axis_point.empty())
+    axis.point = contact::to_point<dim>(of_body.axis_point);
+  if (!of_body.axis.empty())
+    axis.direction = contact::to_point<dim>(of_body.axis);
+  axis.direction /= axis.direction.norm();
+  return {number, axis};
+}
+
+template <int dim>
 std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scene,
                                                  const mesh::BodyMesh<dim> &mesh)
 {
@@ -37,15 +55,12 @@ std::vector<supports::Spring<dim>> build_springs(const scene::Scene        &scen
         }
       for (const auto &[boundary, text] : body.point_springs)
         {
-          const auto         given = scene::placed_force(text, dim);
-          dealii::Point<dim> place;
-          for (unsigned int c = 0; c < dim; ++c)
-            place[c] = given.at[c];
+          const auto given = scene::placed_force(text, dim);
           for (unsigned int c = 0; c < dim; ++c)
             {
               auto next      = spring(body.section() + "/Point springs", body.name, boundary, text);
               next.component = c;
-              next.place     = place;
+              next.place     = contact::to_point<dim>(given.at);
               next.stiffness = [k = given.force[c]](const dealii::Point<dim> &) { return k; };
               springs.push_back(next);
             }
@@ -67,9 +82,7 @@ std::vector<supports::PointSupport<dim>> build_point_supports(const scene::Scene
         const auto        where = find_face(scene, mesh, face);
         const std::string name =
           "entry '" + body.section() + "/Point supports' = '" + boundary + ": " + text + "'";
-        dealii::Point<dim> place;
-        for (unsigned int c = 0; c < dim; ++c)
-          place[c] = hold.at[c];
+        const auto place = contact::to_point<dim>(hold.at);
         for (const unsigned int c : hold.components)
           supports.push_back({where.first, where.second,
                               build_component<dim>(scene, where.first, c), hold.value, place, name,
@@ -78,6 +91,8 @@ std::vector<supports::PointSupport<dim>> build_point_supports(const scene::Scene
   return supports;
 }
 
+template supports::Component<2> build_component(const scene::Scene &, unsigned int, unsigned int);
+template supports::Component<3> build_component(const scene::Scene &, unsigned int, unsigned int);
 template std::vector<supports::PointSupport<2>> build_point_supports(const scene::Scene &,
                                                                      const mesh::BodyMesh<2> &);
 template std::vector<supports::PointSupport<3>> build_point_supports(const scene::Scene &,

@@ -165,8 +165,8 @@ void Body::declare(Entries &entries)
     "Supports", supports, allowed("a list 'boundary: components, ...' of different boundaries"),
     "The displacement components that boundaries hold at zero: 'bottom: xyz, left: x'. "
     "'normal' is the component along the outward normal of a flat, oblique or curved face, "
-    "for symmetry planes and rollers: 'side: normal, end: normal z'. 'radial', 'tangential' and "
-    "'axial' are the components about 'Axis': 'bore: tangential axial'.");
+    "for symmetry planes and rollers; 'radial', 'tangential' and 'axial' are those about 'Axis': "
+    "'side: normal, bore: tangential axial'.");
   entries.add(
     "Point supports", point_supports, allowed("a list 'boundary: components at x y z, ...'"),
     "The displacement components of nodes at places of the reference geometry, in all load cases: "

@@ -122,25 +122,35 @@ class Cylindrical(unittest.TestCase):
         with self.assertRaisesRegex(snug.InputError, "prescribe different displacements"):
             results(scene)
 
-    def gradient_scene(self):
-        """Return a twisted tube whose held nodes, loads and springs move in all directions."""
+    def gradient_scene(self, dim=3):
+        """Return a twisted tube whose held nodes, loads and springs move in all directions. Nodes
+        of the contact face are held as well."""
+        if dim == 2:
+            return tube([8, 2], {"Supports": "inner: tangential", "Pressure": "outer: 1 + x",
+                                 "Axis point": [.1, .2], "Springs": "outer: radial = 20 + x"},
+                        {"widening": measured("displacement", "radial", "tube.outer"),
+                         "grip": measured("reaction", "tangential", "tube.inner")},
+                        Shape={"Basis": "formula modes", "Bounds": [-.1, .1],
+                               "Modes": "-0.3*y, 0.3*x; 0.2*x*y, 0.1*y; 0.1*x*x, 0.2"})
         return twisted(
-            [6, 2, 2], {"Supports": "bottom: tangential axial, inner: radial", "Axis": [.1, 0., 1.],
+            [6, 2, 2], {"Supports": "bottom: tangential normal, inner: radial", "Axis": [.1, 0., 1.],
                         "Axis point": [.05, 0., 0.], "Pressure": "outer: 1 + x",
-                        "Displacement": f"top: tangential = {TWIST}*{RADIUS}, top: normal = 0.002",
-                        "Springs": "outer: tangential = 20*z"},
+                        "Springs": "outer: tangential = 20*z, outer: axial = 30"},
             {"grip": measured("reaction", "tangential"), "push": measured("reaction", "radial", "tube.inner"),
              "lift": measured("reaction", "axial"), "turn": measured("displacement", "tangential", "tube.outer"),
              "widening": measured("displacement", "radial", "tube.outer"),
              "rise": measured("displacement", "axial", "tube.outer"),
              "strain": {"Quantity": "strain energy"}},
+            Obstacles=["lid"], Contact={"Pairs": "tube.top: lid", "Interference": True},
+            **{"Obstacle lid": {"Point": [0., 0., LENGTH - .1], "Normal": [.01, 0., -1.]}},
             Shape={"Basis": "formula modes", "Bounds": [-.1, .1],
                    "Modes": "-0.3*y*z, 0.3*x*z, 0.1*x; 0.3*x + 0.1*y*z, 0.2*y, 0.1*z*y; "
                             "0.1*x*x, 0.2*z, 0.1*y"})
 
     def test_gradients(self):
-        scene, x, step = self.gradient_scene(), [.03, -.02, .05], 1e-3
-        for method in ("adjoint", "direct", "energy"):
+        x, step = [.03, -.02, .05], 1e-3
+        for dim, method in ((3, "adjoint"), (3, "direct"), (3, "energy"), (2, "adjoint")):
+            scene = self.gradient_scene(dim)
             settings = {"Solver/Relative tolerance": 1e-13, "Gradient/Method": method}
             if method == "energy":
                 settings["Optimization/Objective"] = "potential energy"

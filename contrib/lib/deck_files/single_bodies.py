@@ -228,6 +228,33 @@ def mecway_quarter_ring():
     return Example(styles.mecway(model), model)
 
 
+def mecway_twisted_tube():
+    """A quarter of a tube of C3D8 about an oblique axis, with supports along the directions of a
+    cylindrical *TRANSFORM: its top is turned about the axis and moved along it, its foot is held in
+    these directions, and the nodes of a line move along the radius. The elements are those of Snug,
+    so that the bound is that of the digits of CalculiX."""
+    c, s = math.cos(math.radians(25.)), math.sin(math.radians(25.))
+
+    def place(r, t, z):
+        angle = math.radians(t)
+        x, y = r * math.cos(angle), r * math.sin(angle)
+        return (4. + x * c + z * s, 7. + y, z * c - x * s)
+    tube = Part("C3D8", (2, 6, 5), (10., 90., 40.), corner=(10., 0., 0.), place=place)
+    model = Model(tube)
+    model.nodes("FOOT", tube, z=0)
+    model.nodes("TOP", tube, z=40)
+    model.nodes("LINE", tube, x=20, z=16)
+    axis = f"4., 7., 0., {4. + s:.12f}, 7., {c:.12f}\n"
+    model.before = "".join(f"*TRANSFORM, NSET={name}, TYPE=C\n{axis}"
+                           for name in ("FOOT", "TOP", "LINE"))
+    model.before += "*BOUNDARY\nFOOT, 2, 3\nLINE, 1, 1, 0.01\n"
+    model.steps = [Step("*BOUNDARY\nTOP, 2, 2, 0.03\nTOP, 3, 3, 0.01\n")]
+    for axis in "xyz":
+        model.probe(tube, axis, x=20, y=45, z=40)
+        model.probe(tube, axis, x=10, y=90, z=24)
+    return Example(styles.mecway(model), model, bound=1e-5)
+
+
 def mecway_oblique():
     """A block turned by 30 degrees with a symmetry plane, whose normal a rectangular *TRANSFORM
     gives, and forces along the turned axes, in equilibrium but for their moment and the tension. A

@@ -127,7 +127,8 @@ TEST(Errors, BodiesAndBoundaries)
   expect_error({"Body punch/Supports", "top: w", "'w' is not a component"});
   expect_error({"Body punch/Supports", "top: xx", "'x' occurs twice"});
   expect_error({"Body punch/Supports", "top", "boundary: components"});
-  expect_error({"Body punch/Supports", "top: normals", "x, y, z and normal"});
+  expect_error(
+    {"Body punch/Supports", "top: normals", "(x, y, z, normal, radial, tangential, axial)"});
   const std::string drive = "Body punch/Displacement";
   expect_error({drive, "topp: z = 1", "did you mean 'top'?"});
   expect_error({drive, "top: z", "'component = formula'"});
