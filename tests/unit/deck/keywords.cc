@@ -97,6 +97,34 @@ TEST(DeckKeywords, ComponentsOfTransformsAreAxesOrNormals)
   EXPECT_TRUE(lists(deck::translate(round, "deck.inp"), "*BOUNDARY along axes of *TRANSFORM"));
 }
 
+TEST(DeckKeywords, CylindersHaveOneAxisPerBody)
+{
+  // A cube beside the axis z: its bottom about z, its top about another axis.
+  const auto cube = [](const std::string &low_axis, const std::string &high_axis) {
+    return "*NODE\n1, 1, 0, 0\n2, 2, 0, 0\n3, 2, 1, 0\n4, 1, 1, 0\n5, 1, 0, 1\n6, 2, 0, 1\n"
+           "7, 2, 1, 1\n8, 1, 1, 1\n*ELEMENT, TYPE=C3D8, ELSET=cube\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+           "*NSET, NSET=low\n1, 2, 3, 4\n*NSET, NSET=high\n5, 6, 7, 8\n*MATERIAL, NAME=m\n"
+           "*ELASTIC\n1000., .3\n*SOLID SECTION, ELSET=cube, MATERIAL=m\n"
+           "*TRANSFORM, NSET=low, TYPE=C\n" +
+           low_axis + "\n*TRANSFORM, NSET=high, TYPE=C\n" + high_axis +
+           "\n*STEP\n*STATIC\n*BOUNDARY\nlow, 2, 3\nhigh, 1, 1, .1\n*END STEP\n";
+  };
+  const auto text  = cube("0., 0., 5., 0., 0., 7.", "0., 0., 5., 0., 0., 7.");
+  const auto scene = scene_of(deck::translate(text, "deck.inp"), text);
+  const auto body  = scene.bodies.at(0);
+  EXPECT_EQ(body.supports, (std::map<std::string, std::string>{{"low", "z tangential"}}));
+  EXPECT_EQ(body.loads.displacements, (Pairs{{"high", "radial = 0.1"}}));
+  EXPECT_EQ(body.axis, (std::vector<double>{0., 0., 2.}));
+  EXPECT_EQ(body.axis_point, (std::vector<double>{0., 0., 5.}));
+  const std::string lacking = "*BOUNDARY along axes of *TRANSFORM";
+  EXPECT_TRUE(
+    lists(deck::translate(cube("0., 0., 5., 0., 0., 7.", "0., 9., 5., 0., 9., 7."), "deck.inp"),
+          lacking));
+  // Node 1 is on this axis.
+  const std::string edge = "1., 0., 0., 1., 0., 1.";
+  EXPECT_TRUE(lists(deck::translate(cube(edge, edge), "deck.inp"), lacking));
+}
+
 TEST(DeckKeywords, GapsOfAdjustAndClearanceAreThoseOfThePair)
 {
   const std::string pair = "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I";
