@@ -7,8 +7,8 @@ import pathlib
 import shutil
 import subprocess
 
-from known_answers import (EQUAL, HIP_SECTION, PERFECT_FIT, STIFF, lame_pressure, moduli,
-                           sinking)
+from known_answers import (CONE, EQUAL, HIP_SECTION, PERFECT_FIT, STIFF, cone_pressure, cone_radius,
+                           lame_pressure, moduli, sinking)
 from runs import ROOT, RunError, run, solve
 
 # Names of pictures in doc/images with the pictures that contrib/plot draws of a scene with
@@ -131,6 +131,13 @@ def even(value, last, name="even pressure"):
     return lambda _: (name, [0., last], [value, value])
 
 
+def sneddon(_):
+    """Return the pressure under the cone; it is infinite in the middle."""
+    a = cone_radius()
+    places = [a * x for x in samples(.02, 1.)]
+    return "Sneddon", places, [cone_pressure(r, a) for r in places]
+
+
 def force_over_area(summary):
     value = summary["initial_state"]["responses"]["hold"] / (2 * math.pi * 20 * 15)
     return "force / area", [0., 15.], [value, value]
@@ -142,6 +149,8 @@ MEAN = even(100., 1., "force / area")
 EXACT = even(1., 2., "exact")
 
 PICTURES = {
+    "bearing-housing": Picture("bearing-housing", {"bearing-housing": STRESS,
+                                                   "bearing-housing-pressure": PRESSURE}),
     "block-pair": Picture("block-pair", {"block-pair": STRESS}),
     "bush": Picture("bush", {"bush-push": "push/" + PRESSURE, "bush-pull": "pull/" + PRESSURE,
                              "bush-shape": SHAPE},
@@ -167,6 +176,9 @@ PICTURES = {
     "hip-joint": Picture("hip-joint", {"hip-joint": PRESSURE}, known=hip_joint),
     "incline": Picture("incline", {"incline": STRESS}),
     "incompressible": Picture("incompressible", {"incompressible": PRESSURE}, known=degree_2),
+    "indenter": Picture("indenter", {"indenter": PRESSURE},
+                        known=hertz_point(50., [(3000, .35)], lambda _: 5.)),
+    "indenter-cone": Picture("indenter", {"indenter-cone": PRESSURE}, CONE, known=sneddon),
     "leaf-spring": Picture("leaf-spring", {"leaf-spring": STRESS}),
     "nafems-roller": Picture("nafems-roller", {"nafems-roller": STRESS,
                                                "nafems-roller-pressure": PRESSURE},

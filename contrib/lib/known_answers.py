@@ -76,6 +76,55 @@ def rigid_against_stiff(result, stiff):
             ("p0", max(result.pressures()), max(stiff.pressures()))]
 
 
+# A cone of which the surface rises by 0.01 of the radius, in place of the sphere.
+CONE = ["Obstacle tip/Shape=formula", "Obstacle tip/Point=0, 0", "Obstacle tip/Formula=0.01*x - y"]
+
+
+def indenter(result, _):
+    """The answers are those of Hertz for the force 5 on a sphere of the radius 50."""
+    p0, a = hertz_point(result, 5., 50., moduli((3000, .35)), lambda p: p["x"])
+    return [("depth", -result.state["responses"]["depth"], a[2]**2 / 50.), p0, a]
+
+
+def cone_radius():
+    """Return the radius of the contact of the cone under the force 5, by Sneddon."""
+    return math.sqrt(2 * 5. / (math.pi * moduli((3000, .35)) * .01))
+
+
+def cone_pressure(r, a):
+    """Return the pressure of Sneddon under the cone."""
+    return moduli((3000, .35)) * .01 / 2 * math.acosh(a / r)
+
+
+def cone(result, _):
+    """The answers are those of Sneddon; the pressure is that at about half of the radius of the
+    contact, because it is infinite in the middle."""
+    a = cone_radius()
+    node = min(result.points, key=lambda p: abs(p["x"] - a / 2))
+    return [("depth", -result.state["responses"]["depth"], math.pi / 2 * a * .01),
+            ("p at a/2", node["pressure"], cone_pressure(node["x"], a))]
+
+
+def bearing_housing(result, _):
+    """The answers are the force and the moment at the reference point."""
+    force, moment = 0., 0.
+    for p in result.points:
+        if p["pair"] == 0:
+            angle = math.atan2(p["y"], p["x"])
+            force += p["force"] * math.sin(angle)
+            moment -= p["force"] * math.sin(angle) * (p["z"] - 8)
+    return [("force", force, 2500.), ("moment", moment, -5000.)]
+
+
+# A ring and a housing that are nearly rigid.
+RIGID = ["Task=state", "Body ring/Young's modulus=2.1e9", "Body housing/Young's modulus=7e8"]
+
+
+def rigid_housing(result, _):
+    """The shaft rises by the clearance."""
+    return [("rises", result.state["responses"]["rises"], .02)]
+
+
 def gmsh_pin(result, _):
     load = 4 * abs(result.state["contact_force"][2])
     return hertz_point(result, load, 2., moduli((1000, .3)),
