@@ -125,6 +125,22 @@ def rigid_housing(result, _):
     return [("rises", result.state["responses"]["rises"], .02)]
 
 
+def reference_points(result, _):
+    """A beam of the length 5 and EI = 1000 / 12 under moments, and a plane that presses by 0.005 of the
+    height on an area of 3, 0.5 beside its point."""
+    moments = (.1, .15, .1)
+    quantities = [("gradient", result.summary["gradient"]["values"][0],
+                   -3 * sum(moments) * 5 / (1000 / 12))]
+    for case, moment in zip(result.summary["load_cases"], moments):
+        answers = {"turn": moment * 5 / (1000 / 12), "tip": moment * 25 / (2000 / 12),
+                   "press": -15, "couple": -7.5}
+        if case["name"] == "pulled":
+            answers["pull"] = 1000 * .02 / 5 - 1
+        quantities += [(f"{name}, {case['name']}", case["state"]["responses"][name], answer)
+                       for name, answer in answers.items()]
+    return quantities
+
+
 def gmsh_pin(result, _):
     load = 4 * abs(result.state["contact_force"][2])
     return hertz_point(result, load, 2., moduli((1000, .3)),
