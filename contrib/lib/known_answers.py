@@ -134,11 +134,11 @@ def reference_points(result, _):
     for case, moment in zip(result.summary["load_cases"], moments):
         answers = {"turn": moment * 5 / (1000 / 12), "tip": moment * 25 / (2000 / 12),
                    "press": -15, "couple": -7.5}
-        if case["name"] == "pulled":
-            answers["pull"] = 1000 * .02 / 5 - 1
         quantities += [(f"{name}, {case['name']}", case["state"]["responses"][name], answer)
                        for name, answer in answers.items()]
-    return quantities
+    held = next(of for of in result.summary["load_cases"][2]["state"]["reactions"]
+                if of["name"] == "end")
+    return [*quantities, ("reaction of the end", held["force"][0], 1000 * .02 / 5 - 1)]
 
 
 def gmsh_pin(result, _):
