@@ -12,7 +12,8 @@ ROW = re.compile(r"^\| `([^`]+)` \| (?:`([^`]*)`)? \| (.*?) \| ")
 IN_LIST = "a name in the list below"  # if the choices are too many for the table
 LIST = re.compile(r"^`([^`]+)`:$")
 CHOICE = re.compile(r"^\* `([^`]+)`: ")
-NAMED = ("Material", "Body", "Load case", "Obstacle", "Pair", "Shape", "Response")
+NAMED = ("Material", "Body", "Load case", "Obstacle", "Reference point", "Bolt", "Pair", "Shape",
+         "Response")
 
 Entry = collections.namedtuple("Entry", "line section name default allowed choices")
 
