@@ -149,6 +149,8 @@ MEAN = even(100., 1., "force / area")
 EXACT = even(1., 2., "exact")
 
 PICTURES = {
+    "bolted-flange": Picture("bolted-flange", {"bolted-flange": "tighten/" + STRESS,
+                                               "bolted-flange-pressure": "tighten/" + PRESSURE}),
     "bearing-housing": Picture("bearing-housing", {"bearing-housing": STRESS,
                                                    "bearing-housing-pressure": PRESSURE}),
     "block-pair": Picture("block-pair", {"block-pair": STRESS}),

@@ -116,6 +116,13 @@ def bearing_housing(result, _):
     return [("force", force, 2500.), ("moment", moment, -5000.)]
 
 
+def bolted_flange(result, _):
+    """The bolt has its preload, and the whole load where the joint is open."""
+    tension = {of["name"]: of["state"]["bolts"][0]["tension"]
+               for of in result.summary["load_cases"]}
+    return [("tightened", tension["tighten"], 20000.), ("open", tension["pull-3"], 30000.)]
+
+
 # A ring and a housing that are nearly rigid.
 RIGID = ["Task=state", "Body ring/Young's modulus=2.1e9", "Body housing/Young's modulus=7e8"]
 

@@ -85,8 +85,9 @@ void NeighbourhoodRows::factorize()
   double largest = 0.;
   for (unsigned int i = 0; i < n; ++i)
     largest = std::max(largest, gram(i, i));
+  // G_L is zero in sections of revolution that only the axis holds.
   for (unsigned int i = 0; i < n; ++i)
-    gram(i, i) += gram_shift * largest;
+    gram(i, i) += largest > 0. ? gram_shift * largest : 1.;
   gram.set_property(dealii::LAPACKSupport::symmetric);
   gram.compute_cholesky_factorization();
 }

@@ -109,9 +109,9 @@ void LoadCaseParameters::declare(Entries &entries)
   entries.add(
     "Load step", load_step,
     "Whether this load case is a load step: contacts with friction continue from their slips in "
-    "the load case before it, which must have the same 'Position', and bolts without 'Preload' and "
-    "'Shortening' here keep their length. The loads are those at the end of the step. The first "
-    "load case starts without slips.");
+    "the load case before it, of the same 'Position', and bolts without 'Preload' and 'Shortening' "
+    "here keep their length. The loads are those at the end of the step. The first load case "
+    "starts without slips.");
   entries.add("Preload", preloads, allowed("a list 'bolt: number, ...' of different bolts"),
               "The tensions to which bolts are tightened in this load case: 'm8: 5000'. Units: "
               "force.");
