@@ -300,12 +300,21 @@ void SparseFactor::solve(const qp::MultiVector &b, qp::MultiVector &x) const
     }
   else
     {
-      petsc::Matrix B, X;
-      petsc::check(
-        MatCreateSeqDense(PETSC_COMM_SELF, n, k, const_cast<double *>(b.column(0)), B.put()));
-      petsc::check(MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), X.put()));
-      petsc::check(MatMatSolve(factor, B, X));
-      petsc::check(MatScale(X, 1. / unit));
+      // Making matrices for every call takes longer than the solve of a small subdomain.
+      auto &[B, X] = blocks[k];
+      if (B == nullptr)
+        {
+          petsc::check(MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), B.put()));
+          petsc::check(MatCreateSeqDense(PETSC_COMM_SELF, n, k, x.column(0), X.put()));
+        }
+      petsc::check(MatDensePlaceArray(B, b.column(0)));
+      petsc::check(MatDensePlaceArray(X, x.column(0)));
+      const auto error = MatMatSolve(factor, B, X);
+      if (error == 0)
+        petsc::check(MatScale(X, 1. / unit));
+      petsc::check(MatDenseResetArray(B));
+      petsc::check(MatDenseResetArray(X));
+      petsc::check(error);
     }
 }
 

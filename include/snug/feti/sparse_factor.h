@@ -7,6 +7,7 @@
 #include <snug/feti/feti_parameters.h>
 #include <snug/feti/fill_orderings.h>
 
+#include <map>
 #include <memory>
 
 namespace snug::feti {
@@ -91,8 +92,10 @@ private:
   std::shared_ptr<const CoarseGroup> group; ///< declared before the objects on its communicator
   petsc::Matrix                      factor;
   petsc::Vector                      right_hand_side, solution;
-  bool                               has_failed = false;
-  double                             unit = 1.; ///< power of two; the factor is that of A / unit
+  /// right-hand sides and solutions by their number of columns, without arrays of their own
+  mutable std::map<PetscInt, std::pair<petsc::Matrix, petsc::Matrix>> blocks;
+  bool                                                                has_failed = false;
+  double unit = 1.; ///< power of two; the factor is that of A / unit
 };
 
 /**
