@@ -2,6 +2,7 @@
 #include <snug/accuracy/gap_residual.h>
 #include <snug/faces/face_shape.h>
 #include <snug/mesh/shared_nodes.h>
+#include <snug/state/point_results.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -32,14 +33,16 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                               const state::ContactState<dim> &state)
   : solver(solver), load_case(state.load_case), positions(state.surface_positions)
 {
-  const auto &mesh    = solver.mesh();
-  const auto &surface = solver.surface();
-  const auto &contact = solver.contact(load_case);
-  const auto &placed  = contact.placed_surface();
-  const auto  x       = placed.to_space(positions);
-  const auto  held    = placed.turned(solver.held().directions(surface, state.positions));
-  const auto  u       = placed.turned(state.surface_displacement);
-  const auto  here    = mesh::owners_values(mesh, state.positions);
+  const auto &mesh        = solver.mesh();
+  const auto &surface     = solver.surface();
+  const auto &contact     = solver.contact(load_case);
+  const auto &placed      = contact.placed_surface();
+  const auto  x           = placed.to_space(positions);
+  const auto  held        = placed.turned(solver.held().directions(surface, state.positions));
+  const auto  u           = placed.turned(state.surface_displacement);
+  const auto  here        = mesh::owners_values(mesh, state.positions);
+  const auto  q_of_points = state::point_motions(solver, state.u, 0);
+
   const faces::FaceShape<dim>   shape(mesh.degree());
   const dealii::QGauss<dim - 1> gauss(n_gauss);
   for (unsigned int p = 0; p < contact.pairs().size(); ++p)
@@ -68,14 +71,17 @@ GapResidual<dim>::GapResidual(const state::StateSolver<dim>  &solver,
                   area_vector = faces::area_vector(
                     faces::tangents<dim>(on_surface, face.samples, state.positions));
                 }
-              const auto gap = gaps->at(solver.motion(load_case, face.body).point(place),
-                                        point.shape, {face.body, face.boundary});
+              place          = solver.motion(load_case, face.body).point(place);
+              const auto gap = gaps->at(place, point.shape, {face.body, face.boundary});
               if (!gap)
                 continue;
               point.area = gauss.weight(q) * mesh.idealization().weight(place) * area_vector.norm();
               point.gap  = *gap;
-              point.named    = gap->pair;
-              point.residual = gap->gap - jump(point, u);
+              point.named = gap->pair;
+              point.residual =
+                gap->gap - jump(point, u) +
+                gap->normal *
+                  solver.points().motion_of(contact.named_pairs()[gap->pair], place, q_of_points);
               points.push_back(point);
             }
     }

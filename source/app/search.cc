@@ -98,7 +98,10 @@ bool has_no_force(const scene::Scene &scene)
     return loads.pressure.empty() && loads.traction.empty() && loads.force.empty() &&
            loads.moment.empty() && loads.point_forces.empty() && loads.line_forces.empty();
   };
-  return scene.gravity.empty() &&
+  const bool no_point = std::all_of(scene.points.begin(), scene.points.end(), [](const auto &of) {
+    return of.force.empty() && of.moment.empty();
+  });
+  return scene.gravity.empty() && no_point && scene.bolts.empty() &&
          std::all_of(scene.bodies.begin(), scene.bodies.end(),
                      [&](const auto &body) {
                        return is_free(body.loads) && body.body_force.empty() &&

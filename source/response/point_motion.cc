@@ -39,7 +39,11 @@ Unknown unknown_of(const state::StateSolver<dim> &solver,
   if (!exists)
     throw bad_entry(parameters.path("Component"), to_text(parameters.component),
                     std::string("is not a ") + (turns ? "rotation" : "translation") +
-                      " of a reference point of this model");
+                      " of a reference point of this model; must be " +
+                      (is_axisymmetric ? "y"
+                       : dim == 3      ? "x, y or z"
+                       : turns         ? "z"
+                                       : "x or y"));
   if (turns)
     return {p, dim == 2 ? 2 : dim + c, found->length};
   return {p, is_axisymmetric ? 0 : c, 1.};

@@ -87,6 +87,12 @@ public:
   void check(std::set<std::string> &following)
   {
     const SectionCheck own(point.section(), origins, scene.dimension);
+    const auto         bodies = names_of(scene.bodies), obstacles = names_of(scene.obstacles);
+    if (std::count(bodies.begin(), bodies.end(), point.name) +
+          std::count(obstacles.begin(), obstacles.end(), point.name) >
+        0)
+      throw origins.error("Reference points", to_text(names_of(scene.points)),
+                          "'" + point.name + "' is the name of a body or an obstacle");
     own.require(!point.faces.empty() || !point.obstacles.empty(), "Faces", "",
                 "must name at least one face unless 'Obstacles' names an obstacle");
     for (const auto &face : point.faces)
@@ -203,9 +209,13 @@ private:
           std::find(point.obstacles.begin(), point.obstacles.end(), name) != point.obstacles.end();
         for (const auto &face : point.faces)
           follows = follows || split_face(face).first == name;
+        for (const auto &pair : scene.contact.pairs)
+          if (std::find(point.obstacles.begin(), point.obstacles.end(), pair.master) !=
+              point.obstacles.end())
+            follows = follows || split_face(pair.slave).first == name;
         section.require(!follows, "Position", to_text(load_case.positions, ';'),
-                        "must not move '" + name + "', which follows the reference point '" +
-                          point.name + "'");
+                        "must not move '" + name +
+                          "', which follows or touches the reference point '" + point.name + "'");
       }
   }
 

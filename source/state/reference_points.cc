@@ -288,6 +288,19 @@ ReferencePoints<dim>::energy_gradient(const Field                            &x,
 }
 
 template <int dim>
+dealii::Tensor<1, dim>
+ReferencePoints<dim>::motion_of(const contact::NamedPair               &pair,
+                                const dealii::Tensor<1, dim>           &x,
+                                const std::vector<std::vector<double>> &q) const
+{
+  for (unsigned int p = 0; pair.obstacle && p < model.points.size(); ++p)
+    if (const auto &names = model.points[p].obstacles;
+        std::find(names.begin(), names.end(), pair.obstacle->name) != names.end())
+      return times_motion<dim>(motions(p, x), q[p]);
+  return {};
+}
+
+template <int dim>
 typename ReferencePoints<dim>::Field
 ReferencePoints<dim>::without_bolts(const Field                            &x,
                                     Field                                   displacement,

@@ -11,7 +11,7 @@ feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim> &mesh,
   table.first      = tearing.first_id;
   table.body_names = model.body_names;
   for (const auto &point : model.points)
-    table.body_names.push_back(point.name);
+    table.body_names.push_back(point.name + " (reference point)");
   table.n_rigid = tearing.n_points;
   table.body.assign(tearing.n_global, 0);
   for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)

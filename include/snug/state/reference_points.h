@@ -39,6 +39,12 @@ public:
 
   bool empty() const { return model.points.empty(); }
 
+  /// Return the motion at @p x of the obstacle of a pair, for the motions @p q of all points; zero
+  /// if it follows none.
+  dealii::Tensor<1, dim> motion_of(const contact::NamedPair               &pair,
+                                   const dealii::Tensor<1, dim>           &x,
+                                   const std::vector<std::vector<double>> &q) const;
+
   /// Return @p displacement without the motions @p q of bolts, with which tied sides agree.
   Field without_bolts(const Field                            &positions,
                       Field                                   displacement,
