@@ -57,7 +57,7 @@ std::vector<std::string> held_along_normals(const scene::Scene &scene)
       add(body.name + ".", body.loads);
     }
   for (const auto &load_case : scene.load_cases)
-    add("", load_case.loads);
+    add("", loads_on_faces(scene, load_case.loads));
   return faces;
 }
 } // namespace

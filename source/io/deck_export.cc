@@ -46,6 +46,8 @@ public:
     , mesh_text(solver.mesh(), scene, whole)
   {
     const auto &model = solver.model().load_cases.front();
+    if (!scene.load_cases.empty())
+      of_load_case = loads_on_faces(scene, scene.load_cases.front().loads);
     if (scene.load_cases.size() > 1)
       left_out.push_back("load cases after '" + model.name + "'");
     if (!(model.position == contact::Position<dim>()))
@@ -89,6 +91,7 @@ private:
   std::string                    out;
   std::vector<std::string>       left_out;
   bool                           has_contacts = false;
+  scene::LoadParameters          of_load_case; ///< on faces, in the first load case
 
   void write_materials()
   {
@@ -213,7 +216,7 @@ private:
     for (const auto &body : scene.bodies)
       result.emplace_back(body.name + ".", &body.loads);
     if (!scene.load_cases.empty())
-      result.emplace_back("", &scene.load_cases.front().loads);
+      result.emplace_back("", &of_load_case);
     return result;
   }
 

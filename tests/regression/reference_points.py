@@ -126,6 +126,32 @@ class ReferencePoints(unittest.TestCase):
                 "Quantity": "contact force", "Component": up}}))
             self.assertAlmostEqual(moved["f"] / pushed["f"], 1., delta=1e-8)
 
+    def test_errors_of_an_obstacle(self):
+        """The estimates are those of an obstacle with a displacement of its own."""
+        errors = []
+        for of_obstacle, of_point in (({"Displacement": [0., -.02]}, None),
+                                      ({}, {"Obstacles": ["ball"], "Supports": ["x", "rz"],
+                                            "Displacement": ["y = -0.02"]})):
+            scene = {"Task": "state", "Dimension": 2, "Bodies": ["base"], "Obstacles": ["ball"],
+                     "Body base": {"Box cells": [8, 8], "Young's modulus": 1000,
+                                   "Supports": "bottom: xy"},
+                     "Obstacle ball": {"Shape": "sphere", "Point": [.5, 3.], "Radius": 2.,
+                                       **of_obstacle},
+                     "Contact": {"Pairs": "base.top: ball"},
+                     "Accuracy": {"Estimate": "responses"}}
+            if of_point:
+                scene.update({"Reference points": ["ram"], "Reference point ram": of_point})
+            scene = with_responses(scene, {"Response force": {"Quantity": "contact force"},
+                                           "Response peak": {"Quantity": "peak pressure"}})
+            with tempfile.TemporaryDirectory() as folder:
+                with snug.Model.from_dict(scene, set={"Output directory": folder}) as model:
+                    model.write()
+                summary = json.loads(pathlib.Path(folder, "summary.json").read_text("utf-8"))
+            errors.append(summary["state"]["accuracy"]["responses"])
+        self.assertEqual(set(errors[0]), set(errors[1]))
+        for name, expected in errors[0].items():
+            self.assertAlmostEqual(errors[1][name] / expected, 1., delta=1e-3, msg=name)
+
     def test_load_cases(self):
         """A load case with a force and one with the displacement that this force causes."""
         scene = with_responses(punch(2), {**quantities("tool", 2, "displacement", "rotation")})
@@ -224,6 +250,11 @@ class ReferencePoints(unittest.TestCase):
                 ({"Load cases": ["a"], "Load case a": {"Pressure": "tool: 1"}}, "body.boundary"),
                 ({"Load cases": ["a"], "Load case a": {"Position": "block: rotate z 3"}},
                  "must not move 'block'"),
+                ({**ball, tool: {"Obstacles": ["ball"]}, "Load cases": ["a"], "Contact": {
+                    "Pairs": "block.bottom: base.top, base.left: ball"},
+                  "Load case a": {"Position": "base: rotate z 3"}}, "must not move 'base'"),
+                ({**ball, "Reference points": ["tool", "ball"], "Reference point ball": {
+                    "Obstacles": ["ball"]}}, "name of a body or an obstacle"),
                 ({"Responses": ["r"], "Response r": {"Quantity": "displacement", "Component": "x",
                                                      "Reference point": "tol"}},
                  "no such reference point"),
