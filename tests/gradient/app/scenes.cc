@@ -153,13 +153,19 @@ public:
     const auto direct   = gradients(states, sensitivity::Method::direct);
     const auto step     = random_step();
     const auto expected = differences(states, step);
+    // A response may be constant in a load case, as the tension of a bolt under its preload.
+    std::vector<bool> changes(problem.responses.size(), false);
     for (unsigned int i = 0; i < expected.size(); ++i)
       {
         SCOPED_TRACE("response " + std::to_string(i));
-        ASSERT_GT(norm(adjoint[i]), 0.);
+        if (i > 1 && norm(adjoint[i]) > 0.)
+          changes[(i - 2) % changes.size()] = true;
         check_same(adjoint[i], direct[i], difference_step * expected[i].round_off);
         check_slope(adjoint[i], step, expected[i], difference_tolerance);
       }
+    ASSERT_GT(norm(adjoint[0]), 0.); // the objective
+    ASSERT_GT(norm(adjoint[1]), 0.); // the volume
+    ASSERT_EQ(std::count(changes.begin(), changes.end(), false), 0);
     if (!sensitivity::needs_solve(*problem.objective, problem.solver->has_potential()))
       check_slope(gradients(states, sensitivity::Method::energy, false)[0], step, expected[0],
                   energy_tolerance);
@@ -256,7 +262,7 @@ private:
     std::vector<double> difference;
     for (unsigned int i = 0; i < a.size(); ++i)
       difference.push_back(a[i] - b[i]);
-    EXPECT_LT(norm(difference), method_tolerance * norm(b) + round_off);
+    EXPECT_LE(norm(difference), method_tolerance * norm(b) + round_off);
   }
 
   void check_slope(const std::vector<double> &gradient,
