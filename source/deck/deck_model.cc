@@ -75,12 +75,12 @@ const std::set<std::string> without_effect = {"NODEFILE",
 
 /// Largest numbers of words in data lines. More of them come from a comma as decimal point.
 const std::map<std::string, std::size_t> most_words = {
-  {"NODE", 7},        {"ELASTIC", 3},     {"DENSITY", 2},
-  {"EXPANSION", 2},   {"FRICTION", 2},    {"DLOAD", 9},
-  {"DSLOAD", 6},      {"CLOAD", 3},       {"BOUNDARY", 4},
-  {"SPRING", 2},      {"CONTACTPAIR", 2}, {"TIE", 2},
-  {"TEMPERATURE", 2}, {"STATIC", 4},      {"INITIALCONDITIONS", 2},
-  {"KINEMATIC", 2},   {"DISTRIBUTING", 2}};
+  {"NODE", 7},        {"ELASTIC", 3},      {"DENSITY", 2},
+  {"EXPANSION", 2},   {"FRICTION", 2},     {"DLOAD", 9},
+  {"DSLOAD", 6},      {"CLOAD", 3},        {"BOUNDARY", 4},
+  {"SPRING", 2},      {"CONTACTPAIR", 2},  {"TIE", 2},
+  {"TEMPERATURE", 2}, {"STATIC", 4},       {"INITIALCONDITIONS", 2},
+  {"KINEMATIC", 2},   {"DISTRIBUTING", 2}, {"PRE-TENSIONSECTION", 3}};
 
 /// Throw for a data line with too many words.
 void require_few_words(const Reading &reading, const Keyword &keyword)
@@ -264,6 +264,7 @@ DeckModel read_model(const mesh_file::DeckText &text,
   readings.merge(support_readings(reading));
   readings.merge(load_readings(reading));
   readings.merge(rigid_readings(reading));
+  readings.merge(bolt_readings(reading));
   readings.merge(contact_readings(reading));
   for (const auto &keyword : text.keywords())
     {

@@ -95,6 +95,8 @@ public:
       const auto   component = to_whole(words[1], line);
       const double force     = to_number(words[2], line) * reading.factor(keyword);
       erase_if(nodes, [&](const unsigned int node) {
+        if (sets.copies.count(node) > 0)
+          return true;
         const auto found = reading.references.find({node, component - 1});
         if (found == reading.references.end())
           return false;

@@ -21,17 +21,6 @@ namespace {
 /// few digits do.
 const double shape_tolerance = 1e-5;
 
-/// Return the only node that the option "REF NODE" or "ROT NODE" of a keyword names.
-unsigned int
-one_node(const Keyword &keyword, const std::string &option, const mesh_file::DeckSets &sets)
-{
-  const auto word  = keyword.option(option.substr(0, 3) + "NODE");
-  const auto nodes = word.empty() ? Corners() : sets.nodes(word, "", keyword.title, keyword.line);
-  if (nodes.size() != 1)
-    throw keyword_error(keyword, keyword.title + " must have one " + option);
-  return nodes[0];
-}
-
 /// Add what follows a reference node. Nodes that are not those of whole faces are noted as lacking.
 void add_follower(Reading &reading, const Keyword &keyword, DeckModel::RigidBody follower)
 {
@@ -279,12 +268,27 @@ std::optional<DeckModel::Obstacle> shape_of(const Reading              &reading,
 }
 } // namespace
 
+unsigned int
+one_node(const Keyword &keyword, const std::string &option, const mesh_file::DeckSets &sets)
+{
+  const auto word  = keyword.option(option == "NODE" ? option : option.substr(0, 3) + "NODE");
+  const auto nodes = word.empty() ? Corners() : sets.nodes(word, "", keyword.title, keyword.line);
+  if (nodes.size() != 1)
+    throw keyword_error(keyword, keyword.title + " must have one " + option);
+  return nodes[0];
+}
+
 std::map<Freedom, Freedom> reference_freedoms(const mesh_file::DeckText &text,
                                               const mesh_file::DeckSets &sets)
 {
   std::map<Freedom, Freedom> freedoms;
   for (const auto &keyword : text.keywords())
-    if (keyword.name == "RIGIDBODY" || keyword.name == "COUPLING")
+    if (keyword.name == "PRE-TENSIONSECTION")
+      {
+        const auto node     = one_node(keyword, "NODE", sets);
+        freedoms[{node, 0}] = {node, 0};
+      }
+    else if (keyword.name == "RIGIDBODY" || keyword.name == "COUPLING")
       {
         const auto node      = one_node(keyword, "REF NODE", sets);
         const bool is_split  = keyword.has("ROTNODE");

@@ -41,11 +41,16 @@ public:
       const auto set        = key.empty() ? listed->second[0] : sets.boundary_of_nodes(key);
       auto       components = components_of(keyword, words, line);
       const auto value = words.size() > 3 && !words[3].empty() ? to_number(words[3], line) : 0.;
-      const DeckModel::Given given{value * reading.factor(keyword), line, reading.n_steps};
+      const DeckModel::Given given{value * reading.factor(keyword), line, reading.n_steps,
+                                   keyword.has("FIXED")};
       bool                   is_motion = true; // of reference nodes only
       for (const unsigned int node : sets.nodes(words[0], "", keyword.title, line))
         {
           is_motion = is_motion && reading.references.count({node, 0}) > 0;
+          // Only the nodes of bolts have one component.
+          if (given.is_fixed && (!is_motion || reading.references.count({node, 1}) > 0))
+            return reading.lacks(keyword, ": the option FIXED of a node that is not a bolt's",
+                                 line);
           for (const unsigned int c : components)
             if (const auto of = reading.references.find({node, c}); of != reading.references.end())
               reading.current().motions[of->second] = given;
@@ -196,6 +201,6 @@ KeywordReadings support_readings(Reading &reading)
   const auto reader = std::make_shared<SupportReader>(reading);
   return {{"BOUNDARY",
            {[reader](const Keyword &keyword) { reader->read_boundary(keyword); },
-            {{"OP", "AMPLITUDE"}, {}}}}};
+            {{"OP", "AMPLITUDE", "FIXED"}, {}}}}};
 }
 } // namespace snug::deck

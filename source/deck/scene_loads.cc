@@ -31,7 +31,7 @@ public:
   {
     const bool is_one = steps.size() == 1;
     for (unsigned int s = 0; s < steps.size() && !is_one; ++s)
-      result.cases.push_back({case_name(s), s > 0 && has_friction(), {}});
+      result.cases.push_back({case_name(s), s > 0 && (has_friction() || !model.bolts.empty()), {}});
     for (unsigned int b = 0; b < bodies.all().size(); ++b)
       {
         add_supports(b);
@@ -39,6 +39,8 @@ public:
         add_springs(b);
       }
     add_reference_points(model, bodies, steps, remarks, result);
+    for (const auto &bolt : model.bolts)
+      add_bolt(bolt);
     for (unsigned int s = 0; s < steps.size(); ++s)
       {
         std::vector<Entry> of_case;
@@ -198,6 +200,38 @@ private:
     for (const auto &spring : model.springs)
       if (b == 0 && !bodies.body_at(spring.node))
         remarks.lacks("spring", "*SPRING of nodes on no boundary of a body", spring.line);
+  }
+
+  /// Add what tightens a bolt. A node without force and displacement is the preload 0.
+  void add_bolt(const DeckModel::Bolt &bolt)
+  {
+    const bool is_one = steps.size() == 1;
+    const auto place  = std::pair(bolt.node, 0u);
+    auto      &own    = result.of_bolts.emplace_back();
+    const auto key    = is_one ? "" : bolt_name(result.of_bolts.size() - 1) + ": ";
+    for (unsigned int s = 0; s < steps.size(); ++s)
+      {
+        auto      &entries = is_one ? own : result.cases[s].entries;
+        const auto add     = [&](const std::string &name, const double value, const Lines &lines) {
+          add_item(entries, name, key + to_text(value == 0. ? 0. : bolt.sign * value), lines);
+        };
+        const auto held  = steps[s]->motions.find(place);
+        const auto loads = steps[s]->reference_loads.find(place);
+        double     force = 0.;
+        Lines      lines = {bolt.line};
+        if (held == steps[s]->motions.end())
+          {
+            if (loads != steps[s]->reference_loads.end())
+              for (const auto &given : loads->second)
+                {
+                  force += given.value;
+                  lines = {given.line};
+                }
+            add("Preload", force, lines);
+          }
+        else if (s == 0 || !held->second.is_fixed)
+          add("Shortening", held->second.value, {held->second.line});
+      }
   }
 
   void add_loads(const Step &step, const unsigned int b, std::vector<Entry> &entries)

@@ -54,6 +54,11 @@ public:
       names.push_back(point.first);
     if (!names.empty())
       write("set Reference points = " + to_text(names));
+    names.clear();
+    for (std::size_t i = 0; i < model.bolts.size(); ++i)
+      names.push_back(bolt_name(i));
+    if (!names.empty())
+      write("set Bolts = " + to_text(names));
     for (const auto *material : used)
       write_material(*material);
     for (unsigned int b = 0; b < bodies.all().size(); ++b)
@@ -67,6 +72,14 @@ public:
         write("end");
       }
     write_contacts();
+    for (std::size_t i = 0; i < model.bolts.size(); ++i)
+      {
+        write("\nsubsection Bolt " + bolt_name(i));
+        write_entry({"Pair", sides(model.bolts[i].cut), {model.bolts[i].line}});
+        for (const auto &entry : loads.of_bolts[i])
+          write_entry(entry);
+        write("end");
+      }
     write_cases();
     return out.str();
   }

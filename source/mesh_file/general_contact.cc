@@ -27,7 +27,7 @@ double largest_displacement(const DeckText &deck)
 class PairFinder
 {
 public:
-  PairFinder(const DeckText &deck, MeshFile &mesh)
+  PairFinder(const DeckText &deck, const DeckSets &sets, MeshFile &mesh)
     : mesh(mesh), displacement(largest_displacement(deck)), cells(connected_cells(mesh))
   {
     for (const auto &body : cells)
@@ -35,7 +35,10 @@ public:
         std::vector<MeshFile::Element> elements;
         for (const unsigned int element : body.elements)
           elements.push_back(mesh.elements[element]);
-        outer.push_back(outer_faces(elements));
+        outer.emplace_back();
+        for (const auto &face : outer_faces(elements))
+          if (sets.cut_faces.count(geometry::sorted(face)) == 0)
+            outer.back().push_back(face);
       }
   }
 
@@ -101,7 +104,7 @@ std::vector<GeneralPair> general_pairs(const DeckText &deck, const DeckSets &set
     {
       if (keyword.name != "CONTACTINCLUSIONS")
         continue;
-      PairFinder finder(deck, mesh);
+      PairFinder finder(deck, sets, mesh);
       if (keyword.has("ALLEXTERIOR") || keyword.has("ALLELEMENTBASED"))
         finder.add("", "", keyword.begin);
       else

@@ -17,12 +17,12 @@ LIBRARY = pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"
 sys.path.append(str(LIBRARY))
 
 from calculix import require_ccx  # noqa: E402
-from deck_files import compare, contacts, couplings, single_bodies, ties  # noqa: E402
+from deck_files import bolts, compare, contacts, couplings, single_bodies, ties  # noqa: E402
 
 
 def examples():
     """Return {name: function} of all decks."""
-    return {name: function for module in (single_bodies, contacts, ties, couplings)
+    return {name: function for module in (single_bodies, contacts, ties, couplings, bolts)
             for name, function in vars(module).items()
             if name.partition("_")[0] in ("cae", "prepomax", "freecad", "cgx", "mecway")}
 

@@ -36,6 +36,7 @@ struct DeckModel
     double        value;
     unsigned long line;
     unsigned int  step;
+    bool          is_fixed = false; ///< keeps the value of the step before
   };
 
   /// A pressure (one component) or a traction on a set.
@@ -129,6 +130,15 @@ struct DeckModel
     bool                        is_tied    = false;
   };
 
+  /// A bolt: its tied cut, and the node whose component 0 has its force and shortening.
+  struct Bolt
+  {
+    Contact       cut;
+    unsigned int  node;
+    double        sign; ///< -1 if the force of the node compresses
+    unsigned long line;
+  };
+
   std::vector<Material>                materials;
   std::map<unsigned int, std::string>  material_of;   ///< element -> material
   std::map<unsigned int, std::string>  region_of;     ///< element -> set of its section
@@ -140,6 +150,7 @@ struct DeckModel
   std::map<unsigned int, LocalAxes::Axes> cylinders; ///< body -> axis of its components 4 to 6
   std::vector<Interaction>                interactions;
   std::vector<Contact>                    contacts;
+  std::vector<Bolt>                       bolts;
   std::vector<RigidBody>                  rigid_bodies;
   std::vector<Obstacle>                   obstacles;
   std::optional<double>                   thickness;

@@ -33,6 +33,11 @@ using Freedom = std::pair<unsigned int, unsigned int>;
 std::map<Freedom, Freedom> reference_freedoms(const mesh_file::DeckText &text,
                                               const mesh_file::DeckSets &sets);
 
+/// Return the node that an option, such as REF NODE, names. @throws InputError unless it is one.
+unsigned int one_node(const mesh_file::Keyword  &keyword,
+                      const std::string         &option,
+                      const mesh_file::DeckSets &sets);
+
 /// The deck, and the model that the readers of keywords make from it.
 struct Reading
 {
@@ -103,6 +108,9 @@ std::optional<unsigned int> obstacle_of(Reading                                &
                                         const std::string                      &word,
                                         const std::vector<DeckBodies::Corners> &slave,
                                         unsigned long                           line);
+
+/// Return the readings of *PRE-TENSION SECTION.
+KeywordReadings bolt_readings(Reading &reading);
 
 /// Return the readings of contact and friction.
 KeywordReadings contact_readings(Reading &reading);

@@ -18,16 +18,23 @@ struct SceneLoads
   std::vector<std::vector<Entry>>                         of_bodies;    ///< entries of each body
   std::vector<Entry>                                      of_obstacles; ///< displacements
   std::vector<std::pair<std::string, std::vector<Entry>>> points;       ///< reference points
+  std::vector<std::vector<Entry>>                         of_bolts;     ///< entries of each bolt
   std::string                                             gravity;      ///< of the scene
   std::vector<LoadCase>                                   cases; ///< of a deck with several steps
 };
 
 /**
  * Return the entries. The loads of a deck with one step are those of the bodies. Several steps are
- * load cases with the loads at their ends; with friction, from the second one on, load steps.
- * Parts of the model without an entry are noted in @p remarks.
+ * load cases with the loads at their ends; with friction or bolts, from the second one on, load
+ * steps. Parts of the model without an entry are noted in @p remarks.
  */
 SceneLoads scene_loads(const DeckModel &model, const DeckBodies &bodies, Remarks &remarks);
+
+/// Return the name of a bolt in the parameter file: bolt-1 and so on.
+inline std::string bolt_name(const std::size_t index)
+{
+  return "bolt-" + std::to_string(index + 1);
+}
 
 /// Add the motions and loads of reference nodes to @p loads. A force F and a moment M at the node p
 /// of a distributing coupling are 'Force' F and 'Moment' M + (p - c) x F of a boundary with
