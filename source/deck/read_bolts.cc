@@ -35,37 +35,33 @@ void read_section(Reading &reading, const Keyword &keyword)
 {
   if (keyword.has("ELEMENT"))
     return reading.lacks(keyword, " of a beam");
-  const auto  node     = one_node(keyword, "NODE", reading.deck.sets);
-  const auto  values   = reading.first_line(keyword);
-  auto       &bolts    = reading.model.bolts;
-  const auto &sections = reading.deck.sections;
-  const auto  section  = *std::find_if(sections.begin(), sections.end(), [&](const auto &other) {
-    return other.begin == keyword.begin;
-  });
+  const auto node     = one_node(keyword, "NODE", reading.deck.sets);
+  const auto side     = reading.surface(keyword.option("SURFACE"), keyword.line);
+  const auto opposite = side + " opposite";
+  auto      &bolts    = reading.model.bolts;
   if (reading.bodies.body_at(node) || reading.references.count({node, 1}) > 0 ||
       std::any_of(bolts.begin(), bolts.end(), [&](const auto &b) { return b.node == node; }))
     throw keyword_error(keyword, "the NODE of " + keyword.title +
                                    " must belong to no element, rigid body or other section");
-  if (!reading.use(keyword, section.side, keyword.line) ||
-      !reading.use(keyword, section.opposite, keyword.line))
+  if (!reading.use(keyword, side, keyword.line) || !reading.use(keyword, opposite, keyword.line))
     return;
-  const auto a = reading.bodies.bodies_of(section.side);
-  const auto b = reading.bodies.bodies_of(section.opposite);
+  const auto a = reading.bodies.bodies_of(side);
+  const auto b = reading.bodies.bodies_of(opposite);
   if (a.size() != 1 || b.size() != 1 || a == b)
-    throw keyword_error(keyword, "surface '" + section.side + "' of " + keyword.title +
+    throw keyword_error(keyword, "surface '" + side + "' of " + keyword.title +
                                    " must cut one body in two pieces");
-  Vector given;
-  for (std::size_t d = 0; d < values.size(); ++d)
-    given[d] = values[d];
+  auto values = reading.first_line(keyword);
+  values.resize(3, 0.);
+  const Vector given({values[0], values[1], values[2]});
   const double along =
-    given.norm() > 0. ? given * normal_of(reading.bodies, section.side) / given.norm() : 1.;
+    given.norm() > 0. ? given * normal_of(reading.bodies, side) / given.norm() : 1.;
   if (std::abs(along) < 1. - oblique)
     return reading.lacks(keyword, " along a direction that is not the normal of its faces");
-  const DeckModel::Contact cut{section.side, section.opposite, a[0], b[0],  "",
-                               0.,           keyword.line,     {},   false, 0.,
-                               true};
+  const DeckModel::Contact cut{side,         opposite, a[0],  b[0], "",  0.,
+                               keyword.line, {},       false, 0.,   true};
   reading.model.contacts.push_back(cut);
-  bolts.push_back({cut, node, along < 0. ? -1. : 1., keyword.line});
+  bolts.push_back(
+    {"bolt-" + std::to_string(bolts.size() + 1), cut, node, along < 0. ? -1. : 1., keyword.line});
 }
 } // namespace
 

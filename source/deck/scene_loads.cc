@@ -206,31 +206,23 @@ private:
   void add_bolt(const DeckModel::Bolt &bolt)
   {
     const bool is_one = steps.size() == 1;
-    const auto place  = std::pair(bolt.node, 0u);
     auto      &own    = result.of_bolts.emplace_back();
-    const auto key    = is_one ? "" : bolt_name(result.of_bolts.size() - 1) + ": ";
     for (unsigned int s = 0; s < steps.size(); ++s)
       {
-        auto      &entries = is_one ? own : result.cases[s].entries;
-        const auto add     = [&](const std::string &name, const double value, const Lines &lines) {
-          add_item(entries, name, key + to_text(value == 0. ? 0. : bolt.sign * value), lines);
-        };
-        const auto held  = steps[s]->motions.find(place);
-        const auto loads = steps[s]->reference_loads.find(place);
-        double     force = 0.;
-        Lines      lines = {bolt.line};
-        if (held == steps[s]->motions.end())
-          {
-            if (loads != steps[s]->reference_loads.end())
-              for (const auto &given : loads->second)
-                {
-                  force += given.value;
-                  lines = {given.line};
-                }
-            add("Preload", force, lines);
-          }
-        else if (s == 0 || !held->second.is_fixed)
-          add("Shortening", held->second.value, {held->second.line});
+        const auto held    = steps[s]->motions.find({bolt.node, 0});
+        const auto loads   = steps[s]->reference_loads.find({bolt.node, 0});
+        const bool is_held = held != steps[s]->motions.end();
+        double     value   = is_held ? held->second.value : 0.;
+        Lines      lines   = {is_held ? held->second.line : bolt.line};
+        if (!is_held && loads != steps[s]->reference_loads.end())
+          for (const auto &given : loads->second)
+            {
+              value += given.value;
+              lines = {given.line};
+            }
+        if (s == 0 || !is_held || !held->second.is_fixed)
+          add_item(is_one ? own : result.cases[s].entries, is_held ? "Shortening" : "Preload",
+                   (is_one ? "" : bolt.name + ": ") + to_text(bolt.sign * value + 0.), lines);
       }
   }
 

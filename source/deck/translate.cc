@@ -55,8 +55,8 @@ public:
     if (!names.empty())
       write("set Reference points = " + to_text(names));
     names.clear();
-    for (std::size_t i = 0; i < model.bolts.size(); ++i)
-      names.push_back(bolt_name(i));
+    for (const auto &bolt : model.bolts)
+      names.push_back(bolt.name);
     if (!names.empty())
       write("set Bolts = " + to_text(names));
     for (const auto *material : used)
@@ -74,7 +74,7 @@ public:
     write_contacts();
     for (std::size_t i = 0; i < model.bolts.size(); ++i)
       {
-        write("\nsubsection Bolt " + bolt_name(i));
+        write("\nsubsection Bolt " + model.bolts[i].name);
         write_entry({"Pair", sides(model.bolts[i].cut), {model.bolts[i].line}});
         for (const auto &entry : loads.of_bolts[i])
           write_entry(entry);

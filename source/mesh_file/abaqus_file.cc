@@ -34,12 +34,11 @@ public:
                             "the file has more than one part, but no *INSTANCE that places them");
       else
         read_keyword(keywords[k], "");
-    auto sections = cut_at_sections(deck, sets, mesh);
+    cut_at_sections(deck, sets, mesh);
     add_node_sets();
     name_connected_cells(mesh);
     auto pairs = general_pairs(deck, sets, mesh);
-    return {std::move(mesh), std::move(sets), std::move(point_elements), std::move(pairs),
-            std::move(sections)};
+    return {std::move(mesh), std::move(sets), std::move(point_elements), std::move(pairs)};
   }
 
 private:

@@ -24,12 +24,13 @@ public:
           cells_at[face].insert(e);
   }
 
-  void cut(const Keyword &keyword, const PreTensionSection &section)
+  /// Cut the mesh at the faces of the surface @p name.
+  void cut(const Keyword &keyword, const std::string &name)
   {
     std::set<Corners> faces_there;
     Cells             side; // the cells that are connected with those of the surface
     for (const auto &face : mesh.elements)
-      if (std::count(face.groups.begin(), face.groups.end(), section.side) > 0)
+      if (std::count(face.groups.begin(), face.groups.end(), name) > 0)
         for (const unsigned int cell : cells_at[*faces_there.insert(sorted(face.corners)).first])
           if (mesh.elements[cell].number == face.number)
             side.insert(cell);
@@ -48,14 +49,14 @@ public:
       return cells.size() == 2 && side.count(*cells.begin()) + side.count(*cells.rbegin()) == 1;
     };
     if (faces_there.empty() || !std::all_of(faces_there.begin(), faces_there.end(), is_cut))
-      throw keyword_error(keyword, "surface '" + section.side + "' of " + keyword.title +
+      throw keyword_error(keyword, "surface '" + name + "' of " + keyword.title +
                                      " does not cut a body in two pieces; without the keyword the "
                                      "body stays whole");
     for (const auto &face : faces_there)
-      mesh.optional_boundaries[section.opposite].faces.push_back(
+      mesh.optional_boundaries[name + " opposite"].faces.push_back(
         {face_shape(face), face, {}, 0, 0});
     copy_nodes(faces_there);
-    separate(section.side, side, faces_there);
+    separate(name, side, faces_there);
   }
 
 private:
@@ -79,8 +80,6 @@ private:
     return result;
   }
 
-  bool is_there(const unsigned int node) const { return copies.count(node) > 0; }
-
   void copy(const unsigned int node)
   {
     if (copies.emplace(node, mesh.points.size()).second)
@@ -91,7 +90,8 @@ private:
   Corners renamed(Corners corners) const
   {
     for (auto &corner : corners)
-      corner = is_there(corner) ? copies.at(corner) : corner;
+      if (const auto found = copies.find(corner); found != copies.end())
+        corner = found->second;
     return corners;
   }
 
@@ -107,7 +107,8 @@ private:
         middles[corners] = node;
     for (const auto &[corners, node] : middles)
       {
-        if (std::all_of(corners.begin(), corners.end(), [&](const auto c) { return is_there(c); }))
+        if (std::all_of(corners.begin(), corners.end(),
+                        [&](const auto c) { return copies.count(c) > 0; }))
           copy(node);
         mesh.middles[sorted(renamed(corners))] = renamed({node})[0];
       }
@@ -159,25 +160,19 @@ private:
 };
 } // namespace
 
-std::vector<PreTensionSection> cut_at_sections(const DeckText &deck, DeckSets &sets, MeshFile &mesh)
+void cut_at_sections(const DeckText &deck, DeckSets &sets, MeshFile &mesh)
 {
-  std::vector<PreTensionSection> sections;
-  std::vector<const Keyword *>   keywords;
+  std::optional<Cutter> cutter;
   for (const auto &keyword : deck.keywords())
     if (keyword.name == "PRE-TENSIONSECTION" && !keyword.has("ELEMENT"))
-      keywords.push_back(&keyword);
-  if (keywords.empty())
-    return sections;
-  Cutter cutter(sets, mesh);
-  for (const auto *keyword : keywords)
-    {
-      const auto found = sets.spelling.find(upper_case(keyword->option("SURFACE")));
-      if (found == sets.spelling.end() || sets.surfaces.count(found->second) == 0)
-        throw keyword_error(*keyword,
-                            "there is no surface '" + keyword->option("SURFACE") + "' of faces");
-      sections.push_back({keyword->begin, found->second, found->second + " opposite"});
-      cutter.cut(*keyword, sections.back());
-    }
-  return sections;
+      {
+        const auto word  = keyword.option("SURFACE");
+        const auto found = sets.spelling.find(upper_case(word));
+        if (found == sets.spelling.end() || sets.surfaces.count(found->second) == 0)
+          throw keyword_error(keyword, "there is no surface '" + word + "' of faces");
+        if (!cutter)
+          cutter.emplace(sets, mesh);
+        cutter->cut(keyword, found->second);
+      }
 }
 } // namespace snug::mesh_file

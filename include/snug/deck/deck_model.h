@@ -133,6 +133,7 @@ struct DeckModel
   /// A bolt: its tied cut, and the node whose component 0 has its force and shortening.
   struct Bolt
   {
+    std::string   name;
     Contact       cut;
     unsigned int  node;
     double        sign; ///< -1 if the force of the node compresses

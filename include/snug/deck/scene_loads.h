@@ -30,12 +30,6 @@ struct SceneLoads
  */
 SceneLoads scene_loads(const DeckModel &model, const DeckBodies &bodies, Remarks &remarks);
 
-/// Return the name of a bolt in the parameter file: bolt-1 and so on.
-inline std::string bolt_name(const std::size_t index)
-{
-  return "bolt-" + std::to_string(index + 1);
-}
-
 /// Add the motions and loads of reference nodes to @p loads. A force F and a moment M at the node p
 /// of a distributing coupling are 'Force' F and 'Moment' M + (p - c) x F of a boundary with
 /// centroid c.

@@ -115,21 +115,13 @@ struct GeneralPair
  */
 std::vector<GeneralPair> general_pairs(const DeckText &deck, const DeckSets &sets, MeshFile &mesh);
 
-/// A section of *PRE-TENSION SECTION: two sets of opposite faces of a body that is cut in two.
-struct PreTensionSection
-{
-  std::size_t begin;          ///< Keyword::begin
-  std::string side, opposite; ///< names of the sets
-};
-
 /**
- * Cut the mesh at the sections of *PRE-TENSION SECTION with a SURFACE. The cells of the side to
- * which the faces of the surface belong get nodes of their own there, which are copies in the same
- * node sets. The other side is the optional boundary "SURFACE opposite". Other surfaces end at the
- * section. @throws InputError with the line if a surface does not exist or does not cut a body.
+ * Cut the mesh at the surfaces of *PRE-TENSION SECTION. The cells of the side to which the faces of
+ * a surface belong get nodes of their own there, which are copies in the same node sets. The other
+ * side is the optional boundary "SURFACE opposite". Other surfaces end at the section.
+ * @throws InputError with the line if a surface does not exist or does not cut a body.
  */
-std::vector<PreTensionSection>
-cut_at_sections(const DeckText &deck, DeckSets &sets, MeshFile &mesh);
+void cut_at_sections(const DeckText &deck, DeckSets &sets, MeshFile &mesh);
 
 /// A deck: its mesh, and the sets to which its other keywords refer.
 struct DeckMesh
@@ -138,7 +130,6 @@ struct DeckMesh
   DeckSets                             sets;
   std::map<unsigned int, PointElement> point_elements; ///< by index of the element
   std::vector<GeneralPair>             general_pairs;
-  std::vector<PreTensionSection>       sections;
 };
 
 /// Read the mesh of a deck, see read_abaqus(). @throws InputError "line 17: message".

@@ -18,7 +18,8 @@ MeshFile read_gmsh(const std::string &text);
  * instance has a set of the same name, otherwise SET. Cells that are connected, but in no common
  * group of their own, are the group body-N. Node sets, the faces of *DLOAD as Dload-LINE and the
  * nodes of *BOUNDARY as Boundary-LINE are optional boundaries. Keywords that generate or move nodes
- * or elements are errors. Other keywords are skipped. Source: Abaqus keywords reference.
+ * or elements are errors. The mesh is cut at pre-tension sections. Other keywords are skipped.
+ * Source: Abaqus keywords reference.
  */
 MeshFile read_abaqus(const std::string &text);
 /// @}
