@@ -45,11 +45,6 @@ void read_section(Reading &reading, const Keyword &keyword)
                                    " must belong to no element, rigid body or other section");
   if (!reading.use(keyword, side, keyword.line) || !reading.use(keyword, opposite, keyword.line))
     return;
-  const auto a = reading.bodies.bodies_of(side);
-  const auto b = reading.bodies.bodies_of(opposite);
-  if (a.size() != 1 || b.size() != 1 || a == b)
-    throw keyword_error(keyword, "surface '" + side + "' of " + keyword.title +
-                                   " must cut one body in two pieces");
   auto values = reading.first_line(keyword);
   values.resize(3, 0.);
   const Vector given({values[0], values[1], values[2]});
@@ -57,8 +52,10 @@ void read_section(Reading &reading, const Keyword &keyword)
     given.norm() > 0. ? given * normal_of(reading.bodies, side) / given.norm() : 1.;
   if (std::abs(along) < 1. - oblique)
     return reading.lacks(keyword, " along a direction that is not the normal of its faces");
-  const DeckModel::Contact cut{side,         opposite, a[0],  b[0], "",  0.,
-                               keyword.line, {},       false, 0.,   true};
+  const auto         a = reading.bodies.bodies_of(side)[0];
+  const auto         b = reading.bodies.bodies_of(opposite)[0];
+  DeckModel::Contact cut{side, opposite, a, b, "", 0., keyword.line};
+  cut.is_tied = true;
   reading.model.contacts.push_back(cut);
   bolts.push_back(
     {"bolt-" + std::to_string(bolts.size() + 1), cut, node, along < 0. ? -1. : 1., keyword.line});

@@ -27,17 +27,24 @@ unsigned int root_of(std::vector<unsigned int> &parent, unsigned int point)
 }
 } // namespace
 
-std::vector<ConnectedCells> connected_cells(const MeshFile &file)
+std::vector<ConnectedCells> connected_cells(const MeshFile &file, const std::set<unsigned int> &cut)
 {
   std::vector<unsigned int> parent(file.points.size());
   std::iota(parent.begin(), parent.end(), 0u);
-  const auto                          cells = cells_of(file);
+  const auto cells    = cells_of(file);
+  const auto first_of = [&](const unsigned int cell) {
+    const auto &corners = file.elements[cell].corners;
+    const auto  first   = std::find_if(corners.begin(), corners.end(),
+                                       [&](const auto corner) { return cut.count(corner) == 0; });
+    return first == corners.end() ? corners.front() : *first;
+  };
   std::map<std::string, unsigned int> size_of_group;
   for (const unsigned int cell : cells)
     {
       const auto &element = file.elements[cell];
       for (const unsigned int corner : element.corners)
-        parent[root_of(parent, corner)] = root_of(parent, element.corners.front());
+        if (cut.count(corner) == 0)
+          parent[root_of(parent, corner)] = root_of(parent, first_of(cell));
       for (const auto &group : element.groups)
         ++size_of_group[group];
     }
@@ -45,7 +52,7 @@ std::vector<ConnectedCells> connected_cells(const MeshFile &file)
   std::map<unsigned int, unsigned int> body_of_root;
   for (const unsigned int cell : cells)
     {
-      const unsigned int root  = root_of(parent, file.elements[cell].corners.front());
+      const unsigned int root  = root_of(parent, first_of(cell));
       const auto         entry = body_of_root.emplace(root, bodies.size());
       if (entry.second)
         bodies.emplace_back();

@@ -8,161 +8,125 @@ namespace snug::mesh_file {
 namespace {
 using geometry::sorted;
 using Corners = std::vector<unsigned int>;
-using Cells   = std::set<unsigned int>;
+using Nodes   = std::set<unsigned int>;
+using Copies  = std::map<unsigned int, unsigned int>; ///< node -> node of its copy
 
-/// This class cuts a mesh at sections.
-class Cutter
+/// Return the cells of the side of a section to which its faces belong, which are given with the
+/// numbers of their cells, or nothing if they do not cut one body in two. @p nodes are those of the
+/// section.
+Corners
+side_of(const MeshFile &mesh, const std::map<Corners, unsigned long> &section, const Nodes &nodes)
 {
-public:
-  Cutter(DeckSets &sets, MeshFile &mesh) : sets(sets), mesh(mesh)
-  {
-    for (const auto &element : mesh.elements)
-      dim = std::max(dim, dimension(element.shape));
-    for (unsigned int e = 0; e < mesh.elements.size(); ++e)
-      if (dimension(mesh.elements[e].shape) == dim)
-        for (const auto &face : faces(e))
-          cells_at[face].insert(e);
-  }
+  Corners side;
+  bool    is_cut = false;
+  for (const auto &body : connected_cells(mesh, nodes))
+    {
+      std::size_t own = 0, opposite = 0;
+      for (const unsigned int e : body.elements)
+        for (auto face : faces_of(mesh.elements[e].shape))
+          {
+            for (auto &corner : face)
+              corner = mesh.elements[e].corners[corner];
+            if (const auto found = section.find(sorted(face)); found != section.end())
+              ++(found->second == mesh.elements[e].number ? own : opposite);
+          }
+      if (own == section.size() && opposite == 0)
+        side = body.elements;
+      is_cut = is_cut || (own == 0 && opposite == section.size());
+    }
+  return is_cut ? side : Corners();
+}
 
-  /// Cut the mesh at the faces of the surface @p name.
-  void cut(const Keyword &keyword, const std::string &name)
-  {
-    std::set<Corners> faces_there;
-    Cells             side; // the cells that are connected with those of the surface
-    for (const auto &face : mesh.elements)
-      if (std::count(face.groups.begin(), face.groups.end(), name) > 0)
-        for (const unsigned int cell : cells_at[*faces_there.insert(sorted(face.corners)).first])
-          if (mesh.elements[cell].number == face.number)
-            side.insert(cell);
-    std::vector<unsigned int> next(side.begin(), side.end());
-    while (!next.empty())
-      {
-        const unsigned int cell = next.back();
-        next.pop_back();
-        for (const auto &face : faces(cell))
-          for (const unsigned int other : cells_at[face])
-            if (faces_there.count(face) == 0 && side.insert(other).second)
-              next.push_back(other);
-      }
-    const auto is_cut = [&](const Corners &face) {
-      const auto &cells = cells_at[face];
-      return cells.size() == 2 && side.count(*cells.begin()) + side.count(*cells.rbegin()) == 1;
-    };
-    if (faces_there.empty() || !std::all_of(faces_there.begin(), faces_there.end(), is_cut))
-      throw keyword_error(keyword, "surface '" + name + "' of " + keyword.title +
-                                     " does not cut a body in two pieces; without the keyword the "
-                                     "body stays whole");
-    for (const auto &face : faces_there)
-      mesh.optional_boundaries[name + " opposite"].faces.push_back(
-        {face_shape(face), face, {}, 0, 0});
-    copy_nodes(faces_there);
-    separate(name, side, faces_there);
-  }
+/// Return the corners with copies instead of the nodes on a section.
+Corners renamed(Corners corners, const Copies &copies)
+{
+  for (auto &corner : corners)
+    if (const auto found = copies.find(corner); found != copies.end())
+      corner = found->second;
+  return corners;
+}
 
-private:
-  DeckSets                &sets;
-  MeshFile                &mesh;
-  unsigned int             dim = 0;
-  std::map<Corners, Cells> cells_at; ///< sorted corners of a face -> its cells
-  /// node of the present section -> the node of its copy
-  std::map<unsigned int, unsigned int> copies;
-
-  /// Return the sorted corners of the faces of a cell.
-  std::vector<Corners> faces(const unsigned int cell) const
-  {
-    std::vector<Corners> result;
-    for (auto face : faces_of(mesh.elements[cell].shape))
-      {
-        for (auto &corner : face)
-          corner = mesh.elements[cell].corners[corner];
-        result.push_back(sorted(face));
-      }
-    return result;
-  }
-
-  void copy(const unsigned int node)
-  {
+/// Return copies of the nodes of a section, and of those in the middles of its edges and faces.
+Copies copy_nodes(MeshFile &mesh, const Nodes &nodes)
+{
+  Copies     copies;
+  const auto copy = [&](const unsigned int node) {
     if (copies.emplace(node, mesh.points.size()).second)
       mesh.points.push_back(dealii::Point<3>(mesh.points[node]));
-  }
+  };
+  std::for_each(nodes.begin(), nodes.end(), copy);
+  std::map<Corners, unsigned int> middles;
+  for (const auto &[corners, node] : mesh.middles)
+    if (renamed(corners, copies) != corners)
+      middles[corners] = node;
+  for (const auto &[corners, node] : middles)
+    {
+      if (std::all_of(corners.begin(), corners.end(),
+                      [&](const auto corner) { return nodes.count(corner) > 0; }))
+        copy(node);
+      mesh.middles[sorted(renamed(corners, copies))] = renamed({node}, copies)[0];
+    }
+  return copies;
+}
 
-  /// Return the corners with copies instead of the nodes on the section.
-  Corners renamed(Corners corners) const
-  {
-    for (auto &corner : corners)
-      if (const auto found = copies.find(corner); found != copies.end())
-        corner = found->second;
-    return corners;
-  }
-
-  void copy_nodes(const std::set<Corners> &section)
-  {
-    copies.clear();
-    for (const auto &face : section)
-      for (const unsigned int corner : face)
-        copy(corner);
-    std::map<Corners, unsigned int> middles;
-    for (const auto &[corners, node] : mesh.middles)
-      if (renamed(corners) != corners)
-        middles[corners] = node;
-    for (const auto &[corners, node] : middles)
+/// Cut the mesh at the faces of the surface @p name.
+void cut(const Keyword &keyword, const std::string &name, DeckSets &sets, MeshFile &mesh)
+{
+  std::map<Corners, unsigned long> section;
+  Nodes                            nodes, of_side;
+  for (const auto &face : mesh.elements)
+    if (std::count(face.groups.begin(), face.groups.end(), name) > 0)
       {
-        if (std::all_of(corners.begin(), corners.end(),
-                        [&](const auto c) { return copies.count(c) > 0; }))
-          copy(node);
-        mesh.middles[sorted(renamed(corners))] = renamed({node})[0];
+        section[sorted(face.corners)] = face.number;
+        nodes.insert(face.corners.begin(), face.corners.end());
       }
-    for (const auto &face : section)
-      sets.cut_faces.insert({face, sorted(renamed(face))});
-    for (const auto &[node, other] : copies)
+  const auto side = side_of(mesh, section, nodes);
+  if (side.empty())
+    throw keyword_error(keyword, "surface '" + name + "' of " + keyword.title +
+                                   " does not cut one body in two pieces; without the keyword the "
+                                   "body stays whole");
+  const auto copies = copy_nodes(mesh, nodes);
+  for (const unsigned int cell : side)
+    for (auto &corner : mesh.elements[cell].corners)
       {
-        sets.copies.insert(other);
-        for (auto &set : sets.of_nodes)
-          if (set.second.count(node) > 0)
-            set.second.insert(other);
-        for (auto &boundary : mesh.optional_boundaries)
-          if (boundary.second.nodes.count(node) > 0)
-            boundary.second.nodes.insert(other);
+        of_side.insert(corner);
+        corner = renamed({corner}, copies)[0];
       }
-  }
-
-  /// Give the cells of a side, and their faces in sets, the copies of the nodes. Surfaces but
-  /// @p name end at the section.
-  void separate(const std::string &name, const Cells &side, const std::set<Corners> &section)
-  {
-    const auto rename = [&](MeshFile::Element &face) {
-      const auto key   = sorted(face.corners);
-      const auto cells = cells_at.find(key);
-      if (section.count(key) > 0 && face.groups != std::vector<std::string>{name})
-        face.groups.clear();
-      else if (cells != cells_at.end() &&
-               std::any_of(cells->second.begin(), cells->second.end(),
-                           [&](const auto cell) { return side.count(cell) > 0; }))
-        face.corners = renamed(face.corners);
-    };
-    for (auto &element : mesh.elements)
-      if (dimension(element.shape) + 1 == dim)
-        rename(element);
-    for (const auto &line : sets.of_lines)
-      for (const auto &boundary : line.second)
-        for (auto &face : mesh.optional_boundaries[boundary].faces)
-          rename(face);
-    for (const unsigned int cell : side)
-      if (auto &corners = mesh.elements[cell].corners; renamed(corners) != corners)
-        {
-          for (const auto &face : faces(cell))
-            cells_at[face].erase(cell);
-          corners = renamed(corners);
-          for (const auto &face : faces(cell))
-            cells_at[face].insert(cell);
-        }
-  }
-};
+  const auto rename = [&](MeshFile::Element &face) {
+    const bool is_cut = section.count(sorted(face.corners)) > 0;
+    if (is_cut && face.groups != std::vector<std::string>{name})
+      face.groups.clear();
+    else if (is_cut || std::any_of(face.corners.begin(), face.corners.end(), [&](const auto node) {
+               return of_side.count(node) > nodes.count(node);
+             }))
+      face.corners = renamed(face.corners, copies);
+  };
+  for (auto &element : mesh.elements)
+    if (n_corners(element.shape) > 1)
+      rename(element);
+  for (auto &boundary : mesh.optional_boundaries)
+    std::for_each(boundary.second.faces.begin(), boundary.second.faces.end(), rename);
+  for (const auto &[face, number] : section)
+    {
+      mesh.optional_boundaries[name + " opposite"].faces.push_back(
+        {face_shape(face), face, {}, number, keyword.line});
+      sets.cut_faces.insert({face, sorted(renamed(face, copies))});
+    }
+  for (const auto &[node, copy] : copies)
+    {
+      sets.copies.insert(copy);
+      for (auto &set : sets.of_nodes)
+        if (set.second.count(node) > 0)
+          set.second.insert(copy);
+      for (auto &boundary : mesh.optional_boundaries)
+        if (boundary.second.nodes.count(node) > 0)
+          boundary.second.nodes.insert(copy);
+    }
+}
 } // namespace
 
 void cut_at_sections(const DeckText &deck, DeckSets &sets, MeshFile &mesh)
 {
-  std::optional<Cutter> cutter;
   for (const auto &keyword : deck.keywords())
     if (keyword.name == "PRE-TENSIONSECTION" && !keyword.has("ELEMENT"))
       {
@@ -170,9 +134,7 @@ void cut_at_sections(const DeckText &deck, DeckSets &sets, MeshFile &mesh)
         const auto found = sets.spelling.find(upper_case(word));
         if (found == sets.spelling.end() || sets.surfaces.count(found->second) == 0)
           throw keyword_error(keyword, "there is no surface '" + word + "' of faces");
-        if (!cutter)
-          cutter.emplace(sets, mesh);
-        cutter->cut(keyword, found->second);
+        cut(keyword, found->second, sets, mesh);
       }
 }
 } // namespace snug::mesh_file

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Count the answers of Snug to decks with a mistake: deck_mutations.py SNUG MESHES [--show].
 
-A hundred changes of ten decks with a fixed seed: a line removed, doubled or misspelt, a name or an
+Ten changes of each of eleven decks with a fixed seed: a line removed, doubled or misspelt, a name or an
 option changed, numbers swapped, a comma for a decimal point. Snug must answer each one by
 
 * error: one line that contains the place,
@@ -31,7 +31,7 @@ LIBRARY = pathlib.Path(__file__).resolve().parents[2] / "contrib/lib"
 sys.path.append(str(LIBRARY))
 
 from calculix import require_ccx  # noqa: E402
-from deck_files import compare, contacts, mutations, single_bodies  # noqa: E402
+from deck_files import bolts, compare, contacts, mutations, single_bodies  # noqa: E402
 from deck_files.model import Probe  # noqa: E402
 from runs import environment  # noqa: E402
 
@@ -42,7 +42,7 @@ BOUND, PART = .005, .25
 EQUAL = 1e-6  # relative difference of displacements that shows the same model
 EXAMPLES = [contacts.prepomax_adjusted, contacts.prepomax_hot_bar, single_bodies.freecad_wedges,
             single_bodies.mecway_oblique, single_bodies.mecway_quarter_ring,
-            single_bodies.cgx_ring, single_bodies.cgx_dam]
+            single_bodies.cgx_ring, single_bodies.cgx_dam, bolts.prepomax_tightened_bar]
 
 # displacements: of the points in all steps, or None; kind: of the answer, without a comparison;
 # by_calculix: the displacements of CalculiX

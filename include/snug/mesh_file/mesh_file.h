@@ -70,7 +70,9 @@ struct ConnectedCells
 };
 
 /// Return the connected bodies of the elements of the highest dimension, in the order of the file.
-std::vector<ConnectedCells> connected_cells(const MeshFile &file);
+/// The nodes @p cut do not connect.
+std::vector<ConnectedCells> connected_cells(const MeshFile               &file,
+                                            const std::set<unsigned int> &cut = {});
 
 /// Add the cells of each of several connected bodies that has no group of its own to the group
 /// body-N, with N from 1 in the order of the file.

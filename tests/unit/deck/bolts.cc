@@ -171,7 +171,7 @@ TEST(Bolts, GeneralContactAndForcesLeaveTheSectionAlone)
 
 TEST(Bolts, WrongSectionsAreErrors)
 {
-  const std::string does_not_cut = " of *PRE-TENSION SECTION does not cut a body in two pieces";
+  const std::string does_not_cut = " of *PRE-TENSION SECTION does not cut one body in two pieces";
   const std::string node         = "the NODE of *PRE-TENSION SECTION must belong to no element";
   const std::string open         = "*PRE-TENSION SECTION, ";
   for (const auto &[keywords, message] : std::vector<std::pair<std::string, std::string>>{
@@ -187,8 +187,7 @@ TEST(Bolts, WrongSectionsAreErrors)
          {"*SURFACE, NAME=s\n1, S2\n2, S2\n3, S1\n" + section("s"), "'s'" + does_not_cut},
          {section() + section("up"), "'up'" + does_not_cut},
          {section() + "*SURFACE, NAME=s\n3, S2\n4, S2\n" + section("s"), node},
-         {"*SURFACE, NAME=s\n1, S2\n2, S2\n5, S1\n6, S1\n" + section("s"),
-          "'s' of *PRE-TENSION SECTION must cut one body in two pieces"},
+         {"*SURFACE, NAME=s\n1, S2\n2, S2\n5, S1\n6, S1\n" + section("s"), "'s'" + does_not_cut},
          {section("up", "0., 0., 1., 1.\n"), "4 words instead of at most 3"},
          {section("up", "0., 0., up\n"), "'up'"}})
     {
