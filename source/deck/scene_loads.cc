@@ -220,6 +220,10 @@ private:
               value += given.value;
               lines = {given.line};
             }
+        else if (!is_held)
+          remarks.replaced("the preload 0 for a step without force and displacement of the NODE of "
+                           "*PRE-TENSION SECTION",
+                           bolt.line);
         if (s == 0 || !is_held || !held->second.is_fixed)
           add_item(is_one ? own : result.cases[s].entries, is_held ? "Shortening" : "Preload",
                    (is_one ? "" : bolt.name + ": ") + to_text(bolt.sign * value + 0.), lines);

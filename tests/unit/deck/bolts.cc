@@ -116,6 +116,7 @@ TEST(Bolts, StepsTightenAndLock)
            "*STEP\n*STATIC\n*CLOAD, OP=NEW\n*END STEP\n");
   const auto translation = deck::translate(text, "deck.inp");
   EXPECT_TRUE(translation.lacking.empty());
+  EXPECT_TRUE(replaces(translation, "the preload 0 for a step without force"));
   const auto scene = scene_of(translation, text);
   ASSERT_EQ(scene.bolts.size(), 1u);
   EXPECT_FALSE(scene.bolts[0].preload || scene.bolts[0].shortening);
