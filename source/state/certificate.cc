@@ -36,13 +36,25 @@ double absolute_product(const feti::CsrMatrix &K, const qp::MultiVector &u, unsi
   return sum;
 }
 
+/// Return sum_i |B_ij lambda_i| of each unknown of a rigid subdomain, whose forces only balance.
+std::vector<double>
+gross_forces(const feti::Linearization &linear, const unsigned int s, const qp::MultiVector &local)
+{
+  std::vector<double> result(linear.subdomains()[s].n_dofs(), 0.);
+  for (const auto &entry : linear.B()[s])
+    result[entry.dof] += std::abs(entry.value * local(entry.row));
+  return result;
+}
+
 /// Return the maximum over bodies of ||Ku - f + B'lambda|| / (||f|| + ||B'lambda||). The error of a
-/// body is zero where it is round-off of K u.
+/// body is zero where it is round-off of K u. The forces of a rigid body are those of its rows
+/// before they cancel.
 double equilibrium_error(const feti::LoadedProblem &feti,
                          const qp::MultiVector     &lambda,
                          const feti::PrimalVectors &u)
 {
   const auto         forces   = feti.linearization().multiply_Bt(lambda);
+  const auto         local    = feti.linearization().layout().to_local(lambda);
   const unsigned int n_bodies = feti.linearization().table().n_bodies();
   // per body: |residual|^2, |f|^2, |B'lambda|^2 and |terms of K u|^2
   std::vector<double> squares(4 * n_bodies, 0.);
@@ -52,12 +64,15 @@ double equilibrium_error(const feti::LoadedProblem &feti,
       double         *of     = &squares[4 * system.body];
       qp::MultiVector r      = forces[s];
       system.K.multiply_add(1., u[s], r);
+      const auto gross =
+        system.is_rigid() ? gross_forces(feti.linearization(), s, local) : std::vector<double>();
       for (unsigned int i = 0; i < system.n_dofs(); ++i)
         {
           const double f = feti.loads()[s](i), error = r(i) - f;
+          const double force = gross.empty() ? forces[s](i) : gross[i];
           of[0] += error * error;
           of[1] += f * f;
-          of[2] += forces[s](i) * forces[s](i);
+          of[2] += force * force;
           // scale of the round-off of (K u)_i
           const double terms = absolute_product(system.K, u[s], i);
           of[3] += terms * terms;

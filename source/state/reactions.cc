@@ -89,6 +89,10 @@ void add_loads(const StateSolver<dim> &solver, ContactState<dim> &state)
       dealii::Tensor<1, dim> of_subdomain;
       if (solver.assemblers()[s]->is_point())
         {
+          if (solver.model()
+                .points[solver.tearing().subdomains[s].body - solver.mesh().n_bodies()]
+                .is_bolt())
+            continue;                                         // its tension acts on both sides
           const unsigned int first = f.n_rows() == 1 ? 1 : 0; // the force along the axis
           for (unsigned int c = first; c < dim; ++c)
             of_subdomain[c] = f(c - first);
