@@ -27,12 +27,13 @@ void require_followers(const StateSolver<dim>                 &solver,
 {
   std::string  name;
   const double distance =
-    solver.points().parting(state.surface_positions, state.surface_displacement, q, name);
+    solver.points().parting(state.surface_positions, state.surface_displacement, q, solver.held(),
+                            name);
   double largest = 0.;
   for (const auto &u : state.surface_displacement)
     largest = std::max(largest, u.norm());
   // The continuity of the state has an error of the tolerance.
-  if (distance <= std::max(1e-8, 100. * state.tolerance) * largest)
+  if (distance <= std::max(1e-6, 100. * state.tolerance) * largest)
     return;
   std::ostringstream text;
   text << "no equilibrium: supports hold nodes of the faces that follow the reference point '"

@@ -314,14 +314,17 @@ ReferencePoints<dim>::without_bolts(const Field                            &x,
 }
 
 template <int dim>
-double ReferencePoints<dim>::parting(const Field                            &x,
-                                     const Field                            &displacement,
-                                     const std::vector<std::vector<double>> &q,
-                                     std::string                            &name) const
+double ReferencePoints<dim>::parting(const Field                               &x,
+                                     const Field                               &displacement,
+                                     const std::vector<std::vector<double>>    &q,
+                                     const supports::DirichletConstraints<dim> &held,
+                                     std::string                               &name) const
 {
   double largest = 0.;
   for (const auto &[node, p] : nodes)
     {
+      if (held.find(surface.global_node(node)) == held.n_nodes())
+        continue;
       const double distance =
         (displacement[node] - times_motion<dim>(motions(p, x[node]), q[p])).norm();
       if (distance > largest)

@@ -78,12 +78,13 @@ public:
                         const RowCoefficients<dim>             &rows,
                         const contact::Contact<dim>            &contact) const;
 
-  /// Return the maximum over the nodes of the faces of |u - R q|, over nodes that supports hold.
-  /// Their rows along held directions are left out.
-  double parting(const Field                            &positions,
-                 const Field                            &displacement,
-                 const std::vector<std::vector<double>> &q,
-                 std::string                            &name) const;
+  /// Return the maximum of |u - R q| over the nodes of the faces that supports hold, where rows
+  /// along held directions are left out, and the @p name of its point.
+  double parting(const Field                               &positions,
+                 const Field                               &displacement,
+                 const std::vector<std::vector<double>>    &q,
+                 const supports::DirichletConstraints<dim> &held,
+                 std::string                               &name) const;
 
 private:
   /// Point of each row with entries on a motion, by RowCoefficients::row().
