@@ -12,6 +12,8 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "contrib/python/tests"))
 from test_snug import snug  # noqa: E402, begins again with Debian's Python if need be
 
+from differences import assert_gradients  # noqa: E402
+
 MODULUS, POISSON, INNER, OUTER, LENGTH, TWIST = 1000., .3, 1., 2., 3., 1e-3
 SHEAR = .5 * MODULUS / (1. + POISSON)
 RADIUS = "sqrt(x^2 + y^2)"
@@ -148,22 +150,13 @@ class Cylindrical(unittest.TestCase):
                             "0.1*x*x, 0.2*z, 0.1*y"})
 
     def test_gradients(self):
-        x, step = [.03, -.02, .05], 1e-3
         for dim, method in ((3, "adjoint"), (3, "direct"), (3, "energy"), (2, "adjoint")):
             scene = self.gradient_scene(dim)
             settings = {"Solver/Relative tolerance": 1e-13, "Gradient/Method": method}
             if method == "energy":
                 settings["Optimization/Objective"] = "potential energy"
             with snug.Model.from_dict(scene, set=settings) as model:
-                result = model.evaluate(x, gradients=True)
-                self.assertGreater(len(result.gradients), 0)
-                for j in range(3):
-                    a, b, c, d = (model.evaluate([x[i] + k * step * (i == j) for i in range(3)])
-                                  for k in (-2, -1, 1, 2))
-                    for name, gradient in result.gradients.items():
-                        difference = (a[name] - 8. * b[name] + 8. * c[name] - d[name]) / (12. * step)
-                        self.assertAlmostEqual(gradient[j], difference, msg=f"{method} {name}",
-                                               delta=1e-8 * abs(gradient).max())
+                assert_gradients(self, model, [.03, -.02, .05], 1e-3)
 
     def test_ranks(self):
         settings = {"Solver/Relative tolerance": 1e-14, "Decomposition/Subdomains": 6}

@@ -12,6 +12,8 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "contrib/python/tests"))
 from test_snug import snug  # noqa: E402, begins again with Debian's Python if need be
 
+from differences import assert_gradients  # noqa: E402
+
 TIGHT = {"Solver/Relative tolerance": 1e-11}
 
 
@@ -197,16 +199,7 @@ class ReferencePoints(unittest.TestCase):
                           "Response way": {"Quantity": "displacement", "Component": "x",
                                            "Reference point": "ram"}})
         with snug.Model.from_dict(with_responses(scene, responses), set=TIGHT) as model:
-            x, step = [.02, -.03], 1e-4
-            result = model.evaluate(x, gradients=True)
-            for j in range(2):
-                values = [model.evaluate([x[0] + k * step * (j == 0), x[1] + k * step * (j == 1)])
-                          for k in (-2, -1, 1, 2)]
-                for name, gradient in result.gradients.items():
-                    a, b, c, d = (value[name] for value in values)
-                    difference = (a - 8. * b + 8. * c - d) / (12. * step)
-                    self.assertAlmostEqual(gradient[j], difference,
-                                           delta=1e-8 * abs(gradient).max(), msg=name)
+            assert_gradients(self, model, [.02, -.03], 1e-4)
 
     def test_nothing_holds_a_point(self):
         scene = punch(2, FORCE[2])

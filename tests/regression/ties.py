@@ -11,6 +11,8 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "contrib/python/tests"))
 from test_snug import snug  # noqa: E402, begins again with Debian's Python if need be
 
+from differences import assert_gradients  # noqa: E402
+
 AXES = "xyz"
 TENSION, MODULUS, POISSON = 2., 1000., .3
 
@@ -109,16 +111,7 @@ class Ties(unittest.TestCase):
         scene["Pair left.right: right.left"] = {"Law": "tied"}
         scene["Body left"]["Pressure"] = "top: 60"
         with snug.Model.from_dict(scene, set={"Solver/Relative tolerance": 1e-11}) as model:
-            x, step = [.02, -.03], 1e-4
-            result = model.evaluate(x, gradients=True)
-            for j in range(2):
-                values = [model.evaluate([x[0] + k * step * (j == 0), x[1] + k * step * (j == 1)])
-                          for k in (-2, -1, 1, 2)]
-                for name, gradient in result.gradients.items():
-                    a, b, c, d = (value[name] for value in values)
-                    difference = (a - 8. * b + 8. * c - d) / (12. * step)
-                    self.assertAlmostEqual(gradient[j], difference,
-                                           delta=1e-8 * abs(gradient).max(), msg=name)
+            assert_gradients(self, model, [.02, -.03], 1e-4)
 
     def test_ranks(self):
         with tempfile.TemporaryDirectory() as folder:
