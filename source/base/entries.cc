@@ -216,8 +216,8 @@ void Entries::reject_unknown(const Statement &statement) const
       const auto section = suggestion(statement.section, section_names);
       throw InputError("unknown subsection '" + quotable(statement.section) + "'" +
                          did_you_mean(section) +
-                         " (bodies, materials, shapes and the like need a name in 'Bodies', "
-                         "'Materials', 'Shapes' and the like)",
+                         " (names of subsections such as Body NAME stand in lists such as "
+                         "'Bodies')",
                        statement.origin, {statement.section, "", "", section});
     }
   if (statement.name.empty())

@@ -4,6 +4,7 @@
 #include <snug/sensitivity/methods.h>
 #include <snug/sensitivity/residual_gradient.h>
 #include <snug/sensitivity/tangent_system.h>
+#include <snug/state/point_results.h>
 
 #include <algorithm>
 #include <map>
@@ -88,7 +89,7 @@ private:
         }
     const auto      of_step = slip_partials(problem.solver, problem.state, partials);
     qp::MultiVector slips(feti.n_owned(), 0); // at the end of the step
-    auto            motions = motions_in(problem.solver, feti::PrimalVectors(0));
+    auto            motions = state::own_point_motions(problem.solver, feti::PrimalVectors(0));
     const auto      append  = [](const auto &of, const unsigned int i, qp::MultiVector &to) {
       to.append(of.count(i) > 0 ? of.at(i) : qp::MultiVector(to.n_rows()));
     };
@@ -99,7 +100,7 @@ private:
       }
     auto right = state_partials(problem.solver, problem.state, partials);
     right.primal.add(1., feti.linearization().multiply_Bt(slips));
-    add_motions(problem.solver, motions, right.primal);
+    state::add_point_motions(problem.solver, motions, right.primal);
     slips.add(1., of_step);
     auto adjoint = TangentSystem(feti, strong_rows(problem.solver, problem.state).transpose(),
                                  problem.solver.model().solver, problem.parameters.solves,
@@ -131,7 +132,7 @@ private:
                   const qp::MultiVector      &of_step)
   {
     const auto &solver  = problem.solver;
-    auto        motions = motions_in(solver, feti::PrimalVectors(0));
+    auto        motions = state::own_point_motions(solver, feti::PrimalVectors(0));
     motions.append(qp::MultiVector(motions.n_rows()));
     const auto &gluing = solver.gluing(problem.state.load_case);
     const auto  first  = solver.contact(problem.state.load_case).tangents().size();

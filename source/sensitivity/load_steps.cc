@@ -84,42 +84,6 @@ qp::MultiVector with_rows(const qp::MultiVector &x, const unsigned int n)
   return result;
 }
 
-namespace {
-/// Call @p use(subdomain, first place of its motion) for the reference points of this rank.
-template <int dim, typename Use>
-void for_each_point(const state::StateSolver<dim> &solver, const Use &use)
-{
-  const unsigned int m = solver.mesh().idealization().n_rigid_motions();
-  for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
-    if (solver.assemblers()[s]->is_point())
-      use(s, m * (solver.tearing().subdomains[s].body - solver.mesh().n_bodies()));
-}
-} // namespace
-
-template <int dim>
-qp::MultiVector motions_in(const state::StateSolver<dim> &solver, const feti::PrimalVectors &u)
-{
-  const unsigned int m = solver.mesh().idealization().n_rigid_motions();
-  qp::MultiVector    result(m * solver.tearing().n_points, u.n_columns());
-  for_each_point(solver, [&](const unsigned int s, const unsigned int first) {
-    for (unsigned int j = 0; j < u.n_columns(); ++j)
-      std::copy_n(u[s].column(j), m, result.column(j) + first);
-  });
-  return result;
-}
-
-template <int dim>
-void add_motions(const state::StateSolver<dim> &solver,
-                 const qp::MultiVector         &motions,
-                 feti::PrimalVectors           &u)
-{
-  for_each_point(solver, [&](const unsigned int s, const unsigned int first) {
-    for (unsigned int j = 0; j < u.n_columns(); ++j)
-      for (unsigned int k = 0; k < u[s].n_rows(); ++k)
-        u[s](k, j) += motions(first + k, j);
-  });
-}
-
 #define SNUG_INSTANTIATE(dim)                                                                      \
   template std::optional<unsigned int> step_before(const LoadCases<dim> &, unsigned int);          \
   template std::vector<bool> needed_cases(const LoadCases<dim> &, const MeasuredResponses<dim> &); \
@@ -127,11 +91,7 @@ void add_motions(const state::StateSolver<dim> &solver,
     const MeasuredResponses<dim> &, unsigned int);                                                 \
   template qp::MultiVector slip_partials(const state::StateSolver<dim> &,                          \
                                          const state::ContactState<dim> &,                         \
-                                         const std::vector<response::Partials<dim>> &);            \
-  template qp::MultiVector motions_in(const state::StateSolver<dim> &,                             \
-                                      const feti::PrimalVectors &);                                \
-  template void            add_motions(const state::StateSolver<dim> &, const qp::MultiVector &,   \
-                                       feti::PrimalVectors &);
+                                         const std::vector<response::Partials<dim>> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

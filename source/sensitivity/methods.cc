@@ -4,6 +4,7 @@
 #include <snug/sensitivity/tangent_system.h>
 #include <snug/state/cell_gradients.h>
 #include <snug/state/contact_results.h>
+#include <snug/state/point_results.h>
 
 #include <algorithm>
 
@@ -157,7 +158,7 @@ Gradients<dim> direct_gradients(const LoadCases<dim>         &load_cases,
               data.dual(row, j) += motions[*before](place - first, j);
         }
       const auto derivatives = state_derivatives(problem, data);
-      motions[k]             = motions_in(problem.solver, derivatives.primal);
+      motions[k]             = state::own_point_motions(problem.solver, derivatives.primal);
       slips[k]               = feti.linearization().multiply_B(derivatives.primal);
       slips[k].add(-1., rates);
       keep_tangents(feti, slips[k]);

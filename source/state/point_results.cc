@@ -1,6 +1,5 @@
 #include <snug/base/errors.h>
 #include <snug/base/narrow.h>
-#include <snug/elasticity/linear_traction.h>
 #include <snug/state/point_results.h>
 
 #include <algorithm>
@@ -17,6 +16,16 @@ part(const std::vector<double> &of, const unsigned int first, const unsigned int
   for (unsigned int k = first; k < of.size() && place + k - first < n; ++k)
     result[place + k - first] = of[k];
   return result;
+}
+
+/// Call @p use(subdomain, first place of its motion) for the reference points of this rank.
+template <int dim, typename Use>
+void for_each_point(const StateSolver<dim> &solver, const Use &use)
+{
+  const unsigned int m = solver.mesh().idealization().n_rigid_motions();
+  for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
+    if (solver.assemblers()[s]->is_point())
+      use(s, m * (solver.tearing().subdomains[s].body - solver.mesh().n_bodies()));
 }
 
 /// @throws SolveError if supports hold nodes of a face otherwise than its reference point moves.
@@ -43,16 +52,39 @@ void require_followers(const StateSolver<dim>                 &solver,
 } // namespace
 
 template <int dim>
+qp::MultiVector own_point_motions(const StateSolver<dim> &solver, const feti::PrimalVectors &u)
+{
+  const unsigned int m = solver.mesh().idealization().n_rigid_motions();
+  qp::MultiVector    result(m * solver.tearing().n_points, u.n_columns());
+  for_each_point(solver, [&](const unsigned int s, const unsigned int first) {
+    for (unsigned int j = 0; j < u.n_columns(); ++j)
+      std::copy_n(u[s].column(j), m, result.column(j) + first);
+  });
+  return result;
+}
+
+template <int dim>
+void add_point_motions(const StateSolver<dim> &solver,
+                       const qp::MultiVector  &motions,
+                       feti::PrimalVectors    &u)
+{
+  for_each_point(solver, [&](const unsigned int s, const unsigned int first) {
+    for (unsigned int j = 0; j < u.n_columns(); ++j)
+      for (unsigned int k = 0; k < u[s].n_rows(); ++k)
+        u[s](k, j) += motions(first + k, j);
+  });
+}
+
+template <int dim>
 std::vector<std::vector<double>> point_motions(const StateSolver<dim>    &solver,
                                                const feti::PrimalVectors &u,
                                                const unsigned int         column)
 {
-  const unsigned int  n = solver.mesh().n_bodies(), n_points = solver.tearing().n_points;
   const unsigned int  m = solver.mesh().idealization().n_rigid_motions();
-  std::vector<double> all(std::size_t(m) * n_points, 0.);
-  for (unsigned int s = 0; s < u.size(); ++s)
-    if (const unsigned int body = solver.tearing().subdomains[s].body; body >= n)
-      std::copy_n(u[s].column(column), m, all.begin() + std::size_t(m) * (body - n));
+  std::vector<double> all(std::size_t(m) * solver.tearing().n_points, 0.);
+  for_each_point(solver, [&](const unsigned int s, const unsigned int first) {
+    std::copy_n(u[s].column(column), m, all.begin() + first);
+  });
   MPI_Allreduce(MPI_IN_PLACE, all.data(), narrow<int>(all.size()), MPI_DOUBLE, MPI_SUM,
                 solver.context().communicator());
   std::vector<std::vector<double>> result;
@@ -104,10 +136,14 @@ void add_points(const StateSolver<dim> &solver, ContactState<dim> &state)
     }
 }
 
-#define SNUG_INSTANTIATE(dim)                                                          \
-  template std::vector<std::vector<double>> point_motions(const StateSolver<dim> &,    \
-                                                          const feti::PrimalVectors &, \
-                                                          unsigned int);               \
+#define SNUG_INSTANTIATE(dim)                                                               \
+  template std::vector<std::vector<double>> point_motions(const StateSolver<dim> &,         \
+                                                          const feti::PrimalVectors &,      \
+                                                          unsigned int);                    \
+  template qp::MultiVector                  own_point_motions(const StateSolver<dim> &,     \
+                                                              const feti::PrimalVectors &); \
+  template void add_point_motions(const StateSolver<dim> &, const qp::MultiVector &,        \
+                                  feti::PrimalVectors &);                                   \
   template void add_points(const StateSolver<dim> &, ContactState<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -322,7 +322,7 @@ void add_reactions(const StateSolver<dim>     &solver,
     state.balance += reaction.force;
   for (unsigned int p = 0; p < state.pairs.size(); ++p)
     if (const auto &obstacle = solver.contact(state.load_case).named_pairs()[p].obstacle;
-        obstacle && !solver.points().moves(obstacle->name))
+        obstacle && !solver.points().point_of(obstacle->name))
       state.balance += resultant(solver, state.pairs[p].force);
 }
 

@@ -114,12 +114,15 @@ void ReferencePoints<dim>::find_followers()
 }
 
 template <int dim>
-bool ReferencePoints<dim>::moves(const std::string &obstacle) const
+std::optional<unsigned int> ReferencePoints<dim>::point_of(const std::string &obstacle) const
 {
-  return std::any_of(model.points.begin(), model.points.end(), [&](const auto &point) {
-    return std::find(point.obstacles.begin(), point.obstacles.end(), obstacle) !=
-           point.obstacles.end();
-  });
+  for (unsigned int p = 0; p < model.points.size(); ++p)
+    {
+      const auto &names = model.points[p].obstacles;
+      if (std::find(names.begin(), names.end(), obstacle) != names.end())
+        return p;
+    }
+  return {};
 }
 
 template <int dim>
@@ -154,12 +157,8 @@ ReferencePoints<dim>::points_of_rows(const RowCoefficients<dim>  &rows,
   std::vector<std::pair<unsigned int, unsigned int>> result;
   const auto add_obstacle = [&](const unsigned int row, const unsigned int normal_row) {
     const auto &obstacle = contact.pairs()[contact.places()[normal_row].pair].obstacle;
-    for (unsigned int p = 0; obstacle && p < model.points.size(); ++p)
-      {
-        const auto &names = model.points[p].obstacles;
-        if (std::find(names.begin(), names.end(), obstacle->name) != names.end())
-          result.emplace_back(row, p);
-      }
+    if (const auto p = obstacle ? point_of(obstacle->name) : std::nullopt)
+      result.emplace_back(row, *p);
   };
   for (unsigned int i = 0; i < contact.n_rows(); ++i)
     add_obstacle(i, i);
@@ -293,10 +292,8 @@ ReferencePoints<dim>::motion_of(const contact::NamedPair               &pair,
                                 const dealii::Tensor<1, dim>           &x,
                                 const std::vector<std::vector<double>> &q) const
 {
-  for (unsigned int p = 0; pair.obstacle && p < model.points.size(); ++p)
-    if (const auto &names = model.points[p].obstacles;
-        std::find(names.begin(), names.end(), pair.obstacle->name) != names.end())
-      return times_motion<dim>(motions(p, x), q[p]);
+  if (const auto p = pair.obstacle ? point_of(pair.obstacle->name) : std::nullopt)
+    return times_motion<dim>(motions(*p, x), q[*p]);
   return {};
 }
 

@@ -29,7 +29,7 @@ struct RowGramStructure
   /// gathered entries of each unknown (subdomain, dof), without those of rigid bodies (1/D = 0)
   std::vector<std::vector<unsigned int>> entries_of_unknown;
   std::vector<unsigned int>              row_of_entry;
-  qp::RowSet                             beside_ties; ///< contact rows, if there are ties
+  qp::RowSet beside_ties; ///< contact rows, if there are RowLayout::tie_rows()
 };
 
 /**

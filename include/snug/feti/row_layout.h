@@ -42,7 +42,8 @@ public:
    * @param[in] contact_rows flag of each owned row of contact, normal or tangential.
    * @param[in] entries of each subdomain of this rank.
    * @param[in] first_subdomain global id of the first subdomain of this rank.
-   * @param[in] tie_rows flag of each owned row of tied pairs; empty: there are none.
+   * @param[in] tie_rows flag of each owned row of tied pairs and reference points; empty: there are
+   *   none.
    */
   RowLayout(MPI_Comm                               communicator,
             const qp::RowSet                      &contact_rows,
@@ -54,7 +55,8 @@ public:
   unsigned int      n_owned() const { return narrow<unsigned int>(is_contact.size()); }
   unsigned int      n_local() const { return narrow<unsigned int>(local_rows.size()); }
   const qp::RowSet &contact_rows() const { return is_contact; }
-  /// Return flags of the equality rows that couple unknowns of many nodes.
+  /// Return flags of the equality rows of tied pairs and reference points, which glue no copies of
+  /// a node and hold none.
   const qp::RowSet &tie_rows() const { return is_tie; }
   /// Return the global row of an owned row.
   unsigned int global_row(unsigned int owned_row) const { return first_owned + owned_row; }

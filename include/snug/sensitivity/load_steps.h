@@ -30,20 +30,6 @@ qp::MultiVector slip_partials(const state::StateSolver<dim>              &solver
 /// Return the first @p n rows of x, with zeros for rows that x does not have. The rows of held
 /// motions, which differ between the load steps of a sequence, are the last ones.
 qp::MultiVector with_rows(const qp::MultiVector &x, unsigned int n);
-
-/// @name Motions of reference points at the end of load steps, in the order of
-/// ContactState::slips, on the rank that has their subdomains
-/// @{
-/// Return the motions in all columns of @p u.
-template <int dim>
-qp::MultiVector motions_in(const state::StateSolver<dim> &solver, const feti::PrimalVectors &u);
-
-/// Add @p motions to the motions in @p u.
-template <int dim>
-void add_motions(const state::StateSolver<dim> &solver,
-                 const qp::MultiVector         &motions,
-                 feti::PrimalVectors           &u);
-/// @}
 } // namespace snug::sensitivity
 
 #endif

@@ -5,6 +5,8 @@
 #include <snug/state/gluing_rows.h>
 #include <snug/state/ties.h>
 
+#include <optional>
+
 namespace snug::state {
 /**
  * This class provides the rows of B on the rigid motions of reference points. The motion of a point
@@ -50,8 +52,10 @@ public:
                       Field                                   displacement,
                       const std::vector<std::vector<double>> &q) const;
 
-  /// Return whether an obstacle or a boundary of a body follows a point.
-  bool moves(const std::string &obstacle) const;
+  /// Return the point that an obstacle follows; nothing if it follows none.
+  std::optional<unsigned int> point_of(const std::string &obstacle) const;
+
+  /// Return whether a boundary of a body follows a point.
   bool moves(unsigned int body, unsigned int boundary) const;
 
   /// Return the rows of the faces, e_c at each node, without their entries on the motions.
