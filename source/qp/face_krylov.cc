@@ -8,10 +8,12 @@ FaceKrylov::FaceKrylov(const DualProblem    &problem,
                        const bool            deflates)
 {
   if (free_set.has_slips())
-    gcr.emplace(problem, free_set, deflates);
+    gcr.emplace(problem, free_set, known, deflates);
   else
     cg.emplace(problem, free_set,
-               known.off(complement(free_set.free_rows().rows()), problem.context().communicator()),
+               known.is_conjugate ? known.off(complement(free_set.free_rows().rows()),
+                                              problem.context().communicator())
+                                  : DirectionBasis(),
                deflates);
 }
 

@@ -12,17 +12,64 @@ const double image_dependence = 1e-6;
 const double image_noise = 1e-20;
 } // namespace
 
-ProjectedGcr::ProjectedGcr(const DualProblem &the_problem,
-                           const FreeSet     &the_face,
-                           const bool         the_deflates)
+ProjectedGcr::ProjectedGcr(const DualProblem    &the_problem,
+                           const FreeSet        &the_face,
+                           const DirectionBasis &the_known,
+                           const bool            the_deflates)
   : problem(the_problem)
   , free_set(the_face)
   , deflates(the_deflates)
   , comm(the_problem.context().communicator())
+  , known(the_known)
   , directions(the_problem.n_owned(), 0)
   , images(the_problem.n_owned(), 0)
   , projected(the_problem.n_owned(), 0)
-{}
+{
+  if (known.P.n_columns() > 0)
+    recall();
+}
+
+/// Restrict the known directions to the present face, with their images in the present equations.
+/// The images are those of the directions before the restriction, and therefore approximations.
+void ProjectedGcr::recall()
+{
+  const FreeRows &free = free_set.free_rows();
+  recalled             = known.P;
+  recalled_images      = known.FP;
+  free.restrict(recalled);
+  free.reduce(recalled_images);
+  free.add_compliance(1., recalled, recalled_images);
+  free_set.project(recalled_images);
+  const MultiVector C =
+    orthonormal_combinations(inner_products(recalled_images, recalled_images, comm),
+                             std::vector<double>(recalled.n_columns(), 0.), image_dependence);
+  recalled        = times(recalled, C);
+  recalled_images = times(recalled_images, C);
+}
+
+/// Return approximate solutions for the residuals @p r: the recalled directions for the part that
+/// their images explain, and the preconditioner for the rest.
+MultiVector ProjectedGcr::preconditioned(const MultiVector &r) const
+{
+  if (recalled.n_columns() == 0)
+    return free_set.precondition(r);
+  const MultiVector a    = inner_products(recalled_images, r, comm);
+  MultiVector       rest = r;
+  rest.add_product(-1., recalled_images, a);
+  MultiVector y = free_set.precondition(rest);
+  y.add_product(1., recalled, a);
+  return y;
+}
+
+DirectionBasis ProjectedGcr::release_directions()
+{
+  if (known.P.n_columns() == 0)
+    known = {MultiVector(problem.n_owned(), 0), MultiVector(problem.n_owned(), 0)};
+  known.is_conjugate = false;
+  known.P.append(directions);
+  known.FP.append(images);
+  return std::move(known);
+}
 
 MultiVector ProjectedGcr::projected_residual(const MultiVector &lambda,
                                              const MultiVector &residual) const
@@ -51,7 +98,7 @@ void ProjectedGcr::minimize(const unsigned int first,
 bool ProjectedGcr::add_directions(const MultiVector &r)
 {
   const FreeRows &free = free_set.free_rows();
-  MultiVector     y    = free_set.precondition(r);
+  MultiVector     y    = preconditioned(r);
   free_set.project_multipliers(y);
   MultiVector z = y;
   free.expand(z);

@@ -176,7 +176,7 @@ void SetIteration::keep_rows(const FreeRows &next)
   // Where the residual stalls, begin another Krylov space from a residual computed anew. Deflation
   // has rounding errors of its own.
   if (has_stalled || turns || (has_friction && stalls > 0))
-    take(next, DirectionBasis(), has_friction);
+    take(next, has_friction ? krylov->release_directions() : DirectionBasis(), has_friction);
 }
 
 /// @throws UnsettledSets if the sets do not settle.

@@ -65,11 +65,7 @@ TangentSystem::TangentSystem(const feti::LoadedProblem  &feti,
                              const qp::SolverParameters &parameters,
                              Solves                      solves,
                              const qp::DirectionBasis   &known)
-  : feti(feti)
-  , parameters(parameters)
-  , solves(solves)
-  , free_set(feti.free_set(rows))
-  , known(known.off(qp::complement(rows.rows()), feti.context().communicator()))
+  : feti(feti), parameters(parameters), solves(solves), free_set(feti.free_set(rows)), known(known)
 {}
 
 /// Return whether ||G mu - e|| of every column is within the tolerance of the sum of ||mu|| and the

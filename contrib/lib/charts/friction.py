@@ -63,9 +63,12 @@ CHARTS_OF_STATES = {
         2, [1e-4, 1e-2, 1., 1e2, 1e4],
         lambda x: ({**mesh(2, 32, 8), "Body upper/Young's modulus": 1000 * x}, .3)),
     "3D: coefficient of friction": (3, [.05, .1, .2, .3, .6, 1.], lambda x: (mesh(3, 54, 4), x)),
-    "3D: subdomains": (3, [16, 54, 128], lambda x: (mesh(3, x, 4), .3))}
-SHOWN = "2D: subdomains", "2D: coefficient of friction"  # in the picture
-QUICK = {"2D: coefficient of friction": [.3], "2D: subdomains": [8]}
+    "3D: subdomains": (3, [16, 54, 128], lambda x: (mesh(3, x, 4), .3)),
+    # 20k, 56k, 94k and 197k unknowns
+    "3D: cells per edge of a block": (3, [14, 20, 24, 31], lambda x: (cells(x, *BODIES), .3))}
+SHOWN = "2D: subdomains", "3D: cells per edge of a block"  # in the picture
+QUICK = {"2D: coefficient of friction": [.3], "2D: subdomains": [8],
+         "3D: cells per edge of a block": [4]}
 
 
 def measure(quick):

@@ -13,7 +13,8 @@ class FaceKrylov
 {
 public:
   /// Store the references; problem and face must outlive this object. Pcpg begins with the part of
-  /// the directions @p known that lies in the face. For @p deflates see both methods. Collective.
+  /// conjugate directions @p known that lies in the face, and ProjectedGcr recalls all of @p known.
+  /// For @p deflates see both methods. Collective.
   FaceKrylov(const DualProblem    &problem,
              const FreeSet        &free_set,
              const DirectionBasis &known    = DirectionBasis(),
@@ -25,8 +26,11 @@ public:
                      const std::vector<double> &tolerances,
                      unsigned int               max_iterations);
 
-  /// Return the directions of Pcpg so far, none of ProjectedGcr. No more can be solved afterwards.
-  DirectionBasis release_directions() { return cg ? cg->release_directions() : DirectionBasis(); }
+  /// Return the directions so far. No more can be solved afterwards.
+  DirectionBasis release_directions()
+  {
+    return cg ? cg->release_directions() : gcr->release_directions();
+  }
 
 private:
   std::optional<Pcpg>         cg;

@@ -1,7 +1,7 @@
 #ifndef snug_qp_projected_gcr_h
 #define snug_qp_projected_gcr_h
 
-#include <snug/qp/dual_problem.h>
+#include <snug/qp/direction_basis.h>
 #include <snug/qp/krylov_columns.h>
 
 namespace snug::qp {
@@ -22,9 +22,13 @@ namespace snug::qp {
 class ProjectedGcr
 {
 public:
-  /// Store the references; problem and face must outlive this object. If @p deflates, the method
-  /// uses the directions C that are known for every face.
-  ProjectedGcr(const DualProblem &problem, const FreeSet &free_set, bool deflates = true);
+  /// Store the references; problem and face must outlive this object. The directions @p known may
+  /// be those of other faces. If @p deflates, the method uses the directions C that are known for
+  /// every face. Collective.
+  ProjectedGcr(const DualProblem    &problem,
+               const FreeSet        &free_set,
+               const DirectionBasis &known    = DirectionBasis(),
+               bool                  deflates = true);
 
   /**
    * Solve on the free rows. Costs one F-mult per direction. Collective.
@@ -37,7 +41,12 @@ public:
                      const std::vector<double> &tolerances,
                      unsigned int               max_iterations);
 
+  /// Return all directions so far, with the known ones. No more can be solved afterwards.
+  DirectionBasis release_directions();
+
 private:
+  void        recall();
+  MultiVector preconditioned(const MultiVector &r) const;
   bool        add_directions(const MultiVector &r);
   MultiVector projected_residual(const MultiVector &lambda, const MultiVector &residual) const;
   void        minimize(unsigned int       first,
@@ -49,8 +58,10 @@ private:
   const FreeSet     &free_set;
   bool               deflates;
   MPI_Comm           comm;
-  MultiVector        directions{0, 0}, images{0, 0}; ///< Z z, F Z z
-  MultiVector        projected{0, 0};                ///< q, orthonormal
+  DirectionBasis     known;
+  MultiVector        recalled{0, 0}, recalled_images{0, 0}; ///< y, A y approximately, orthonormal
+  MultiVector        directions{0, 0}, images{0, 0};        ///< Z z, F Z z
+  MultiVector        projected{0, 0};                       ///< q, orthonormal
 };
 } // namespace snug::qp
 
