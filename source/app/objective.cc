@@ -5,6 +5,12 @@
 #include <tuple>
 
 namespace snug::app {
+namespace {
+/// Relative tolerance of the derivatives of states in a search. Measured: 1e-6 takes the same
+/// designs as 1e-8 with a fifth of the F-mults less, and 1e-4 takes more designs.
+constexpr double derivative_tolerance = 1e-6;
+} // namespace
+
 template <int dim>
 Objective<dim>::Objective(const ShapeProblem<dim> &problem,
                           Analyses<dim>           &analyses,
@@ -158,7 +164,10 @@ const sensitivity::Gradients<dim> &Objective<dim>::gradients(const Design &desig
   if (parameters.method == sensitivity::Method::energy) // does not hold for every constraint
     parameters.method.reset();
   if (is_predicted())
-    parameters.method = sensitivity::Method::direct;
+    {
+      parameters.method          = sensitivity::Method::direct;
+      parameters.state_tolerance = derivative_tolerance;
+    }
   const auto &found = analyses.gradients(design, measured, parameters);
   if (is_known)
     return combined;

@@ -179,34 +179,20 @@ typename Surface<dim>::Field Surface<dim>::gather(const mesh::Field<dim> &field)
   const bool with_samples =
     n_points() > n_nodes() &&
     dealii::Utilities::MPI::min(int(field.size() == mesh.n_points()), mesh.communicator()) == 1;
-  // The values are in the order of surface nodes, because owned is sorted.
-  std::vector<double> mine;
-  for (const auto &node : owned)
-    for (unsigned int d = 0; d < dim; ++d)
-      mine.push_back(field[node.second][d]);
-  // Ranks own ascending ranges of global nodes, so the concatenation in rank
-  // order is in the order of surface nodes.
-  const auto   parts = dealii::Utilities::MPI::all_gather(mesh.communicator(), mine);
-  Field        result(with_samples ? n_points() : n_nodes());
-  unsigned int position = 0;
-  for (const auto &part : parts)
-    for (const double value : part)
-      {
-        result[position / dim][position % dim] = value;
-        ++position;
-      }
-  SNUG_ASSERT_EQUAL(position, dim * n_nodes());
+  Field               result(with_samples ? n_points() : n_nodes());
+  std::vector<double> values(dim * result.size(), 0.);
+  const auto          add = [&](const std::vector<std::pair<unsigned int, unsigned int>> &points) {
+    for (const auto &point : points)
+      for (unsigned int d = 0; d < dim; ++d)
+        values[dim * point.first + d] = field[point.second][d];
+  };
+  add(owned);
   if (with_samples)
-    {
-      // Each sample is on one rank, and the other ranks add zeros.
-      std::vector<double> values(dim * (n_points() - n_nodes()), 0.);
-      for (const auto &sample : owned_samples)
-        for (unsigned int d = 0; d < dim; ++d)
-          values[dim * (sample.first - n_nodes()) + d] = field[sample.second][d];
-      dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
-      for (unsigned int i = 0; i < values.size(); ++i)
-        result[n_nodes() + i / dim][i % dim] = values[i];
-    }
+    add(owned_samples);
+  // Each point is on one rank, and the other ranks add zeros.
+  dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
+  for (unsigned int i = 0; i < values.size(); ++i)
+    result[i / dim][i % dim] = values[i];
   return result;
 }
 

@@ -70,8 +70,10 @@ template <int dim>
 KktVectors state_derivatives(const GradientProblem<dim> &problem, const KktVectors &data)
 {
   const auto &[solver, basis, state, design, widths, parameters] = problem;
-  return TangentSystem(solver.feti(state), strong_rows(solver, state), solver.model().solver,
-                       parameters.solves, state.dual.directions)
+  auto linear                                                    = solver.model().solver;
+  linear.relative_tolerance = std::max(linear.relative_tolerance, parameters.state_tolerance);
+  return TangentSystem(solver.feti(state), strong_rows(solver, state), linear, parameters.solves,
+                       state.dual.directions)
     .solve(data);
 }
 

@@ -73,6 +73,8 @@ struct GradientParameters
   elasticity::Differences differences = elasticity::Differences::central;
   /// step of the overall finite differences, relative to the width of the bounds
   double step = 1e-4;
+  /// minimum relative tolerance of the derivatives of states; searches set it
+  double state_tolerance = 0.;
   /// whether dJ/dX at the nodes is computed too
   bool shape_gradient = false;
   /// for Task = sensitivity: whether all methods are compared or only the chosen one is used
