@@ -66,7 +66,8 @@ CHARTS_OF_STATES = {
     "3D: coefficient of friction": (3, [.05, .1, .2, .3, .6, 1.], lambda x: (mesh(3, 54, 4), x)),
     "3D: subdomains": (3, [16, 54, 128], lambda x: (mesh(3, x, 4), .3)),
     # 20k, 56k, 94k and 197k unknowns
-    "3D: cells per edge of a block": (3, [14, 20, 24, 31], lambda x: (cells(x, *BODIES), .3))}
+    "3D: cells per edge of a block": (3, [14, 20, 24, 31], lambda x: (
+        {**cells(x, *BODIES), "Decomposition/Subdomains": "auto"}, .3))}
 SHOWN = "2D: subdomains", "3D: cells per edge of a block"  # in the picture
 QUICK = {"2D: coefficient of friction": [.3], "2D: subdomains": [8],
          "3D: cells per edge of a block": [4]}
@@ -96,6 +97,9 @@ def draw(output, quick):
         axis.set_xlabel(chart)
         axis.set_ylabel("F-mults")
         axis.set_yscale("linear")
+        places = sorted({row["x"] for row in charts[chart]})
+        axis.set_xticks(places, [f"{x:g}" for x in places])
+        axis.minorticks_off()
         axis.set_ylim(0)
     figure.suptitle("F-mults of states with Coulomb friction and of their gradients")
     legend_below(figure, axes, 3, .12)
