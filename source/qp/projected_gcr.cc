@@ -1,6 +1,10 @@
 #include <snug/qp/independent_columns.h>
 #include <snug/qp/projected_gcr.h>
 
+#include <cmath>
+#include <numeric>
+#include <utility>
+
 namespace snug::qp {
 namespace {
 /// Directions are linearly dependent if a pivot of the Gram matrix of their images, scaled to unit
@@ -10,6 +14,16 @@ const double image_dependence = 1e-6;
 /// The image of a direction is rounding error if orthogonalization leaves less than this part of
 /// the square of its norm.
 const double image_noise = 1e-20;
+
+/// Recalled directions are dropped if an iteration leaves more than this part of the residuals. With
+/// large contrasts of stiffness, the approximate images are poor. Measured with a contrast of 1e4:
+/// 68 instead of 104 F-mults.
+const double poor_reduction = 0.95;
+
+double length_of(const std::vector<double> &x)
+{
+  return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.));
+}
 } // namespace
 
 ProjectedGcr::ProjectedGcr(const DualProblem    &the_problem,
@@ -140,11 +154,15 @@ KrylovResult ProjectedGcr::solve(MultiVector               &lambda,
   if (deflates)
     free_set.minimize_over_deflated(lambda, residual);
   minimize(0, projected_residual(lambda, residual), lambda, residual);
+  double size = 0.;
   while (true)
     {
       const MultiVector r = projected_residual(lambda, residual);
       if (columns.ends(r, residual, tolerances, max_iterations, result))
         return result;
+      const double before = std::exchange(size, length_of(result.residual_norms));
+      if (result.iterations > 0 && size > poor_reduction * before)
+        recalled = MultiVector(problem.n_owned(), 0);
       const unsigned int known = projected.n_columns();
       if (!add_directions(columns.leading_part(r)))
         return result;

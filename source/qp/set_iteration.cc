@@ -239,18 +239,19 @@ DualSolution SetIteration::solve(const WarmStart &from)
     }
 }
 
-/// The solution includes the directions, because sensitivities solve with the same F on (part of)
-/// the same face.
+/// The solution includes conjugate directions, because sensitivities solve with the same F on (part
+/// of) the same face.
 DualSolution SetIteration::solution()
 {
   DualSolution result;
   const auto  &free   = free_set->free_rows();
   const auto   loaded = loaded_rows(problem.bounded(), lambda);
   result.lambda       = lambda;
-  result.directions   = krylov->release_directions();
-  result.residual     = residual;
-  result.amplitudes   = kkt.amplitudes;
-  result.active       = free.rows();
+  if (auto directions = krylov->release_directions(); directions.is_conjugate)
+    result.directions = std::move(directions);
+  result.residual   = residual;
+  result.amplitudes = kkt.amplitudes;
+  result.active     = free.rows();
   for (unsigned int i = 0; i < loaded.size(); ++i)
     result.active[i] = free.rows()[i] && loaded[i];
   for (const FrictionCone &cone : problem.cones())
