@@ -1,5 +1,6 @@
 #include <snug/accuracy/contact_pressure.h>
 #include <snug/accuracy/gap_residual.h>
+#include <snug/base/gather.h>
 #include <snug/faces/face_shape.h>
 #include <snug/mesh/shared_nodes.h>
 #include <snug/state/point_results.h>
@@ -156,8 +157,7 @@ GapResidual<dim>::pressures(const std::vector<double> &of_rows) const
     }
   const auto everywhere = [&](const std::vector<double> &values) {
     std::vector<double> all;
-    for (const auto &of_rank :
-         dealii::Utilities::MPI::all_gather(solver.mesh().communicator(), values))
+    for (const auto &of_rank : all_gather(solver.mesh().communicator(), values))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
     return all;
   };

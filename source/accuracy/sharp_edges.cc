@@ -1,4 +1,5 @@
 #include <snug/accuracy/sharp_edges.h>
+#include <snug/base/gather.h>
 #include <snug/contact/pair_geometry.h>
 #include <snug/faces/nodal_normals.h>
 
@@ -53,8 +54,7 @@ public:
   {
     const faces::NodalNormals<dim> normals(surface, contact::faces_of(surface, side), shape, x);
     std::vector<unsigned int>      result;
-    for (const auto &of_rank :
-         dealii::Utilities::MPI::all_gather(solver.mesh().communicator(), faces_beside(side)))
+    for (const auto &of_rank : all_gather(solver.mesh().communicator(), faces_beside(side)))
       for (const auto &face : of_rank)
         {
           const auto  &own    = normals.normals()[face.node];

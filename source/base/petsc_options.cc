@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/base/petsc_handle.h>
 #include <snug/base/petsc_options.h>
 
@@ -48,7 +49,7 @@ std::vector<std::string> unused_options(MPI_Comm communicator)
     mine.push_back("-" + std::string(names[i]) + (values[i] ? " " + std::string(values[i]) : ""));
   check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
   // A rank without subdomains has queried fewer options.
-  const auto of_ranks = dealii::Utilities::MPI::gather(communicator, mine);
+  const auto of_ranks = gather(communicator, mine);
   if (of_ranks.empty())
     return {};
   std::vector<std::string> result;

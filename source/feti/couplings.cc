@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/feti/couplings.h>
 
@@ -10,7 +11,7 @@ std::vector<Coupling> unite(const std::set<Coupling> &mine, MPI_Comm comm)
 {
   const std::vector<Coupling> of_this_rank(mine.begin(), mine.end());
   std::vector<Coupling>       pairs;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(comm, of_this_rank))
+  for (const auto &of_rank : all_gather(comm, of_this_rank))
     pairs.insert(pairs.end(), of_rank.begin(), of_rank.end());
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

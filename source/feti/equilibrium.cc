@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/feti/loaded_problem.h>
 #include <snug/qp/nnls.h>
@@ -29,7 +30,7 @@ const double rest_cut = 1e-6;
 qp::MultiVector gather_columns(const std::vector<double> &mine, unsigned int n_rows, MPI_Comm comm)
 {
   std::vector<double> numbers;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(comm, mine))
+  for (const auto &of_rank : all_gather(comm, mine))
     numbers.insert(numbers.end(), of_rank.begin(), of_rank.end());
   // Columns are contiguous in memory, so the gathered numbers are the matrix.
   qp::MultiVector columns(n_rows, narrow<unsigned int>(numbers.size() / n_rows));

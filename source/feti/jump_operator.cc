@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/feti/jump_operator.h>
 
@@ -124,7 +125,7 @@ JumpColumn column(const RowLayout                 &layout,
 } // namespace
 
 SubdomainRanks::SubdomainRanks(const unsigned int first, MPI_Comm comm)
-  : first_of_rank(dealii::Utilities::MPI::all_gather(comm, first))
+  : first_of_rank(all_gather(comm, first))
 {}
 
 unsigned int SubdomainRanks::operator()(const unsigned int subdomain) const

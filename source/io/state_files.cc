@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/io/state_files.h>
@@ -20,7 +21,7 @@ std::vector<Texts> of_ranks(MPI_Comm all, const unsigned int n, const Texts &tex
   const int rank = narrow<int>(dealii::Utilities::MPI::this_mpi_process(all));
   MPI_Comm  some;
   MPI_Comm_split(all, rank / narrow<int>(n), rank, &some);
-  auto gathered = dealii::Utilities::MPI::gather(some, texts);
+  auto gathered = gather(some, texts);
   MPI_Comm_free(&some);
   return gathered;
 }
@@ -45,7 +46,7 @@ std::vector<Texts> files_of_blocks(MPI_Comm                  comm,
   std::vector<char> own;
   for (const auto &block : blocks)
     own.push_back(block.piece.empty() ? 0 : 1);
-  const auto         has_cells = dealii::Utilities::MPI::gather(comm, own);
+  const auto         has_cells = gather(comm, own);
   std::vector<Texts> files(blocks.size());
   for (unsigned int rank = 0; rank < has_cells.size(); ++rank)
     for (unsigned int b = 0; b < blocks.size(); ++b)

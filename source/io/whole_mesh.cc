@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/io/whole_mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,7 +15,7 @@ template <typename T>
 std::vector<T> gathered(const std::vector<T> &mine, MPI_Comm communicator)
 {
   std::vector<T> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::gather(communicator, mine, 0))
+  for (const auto &of_rank : gather(communicator, mine, 0))
     all.insert(all.end(), of_rank.begin(), of_rank.end());
   return all;
 }

@@ -1,4 +1,5 @@
 #include <snug/base/deal_ii_compat.h>
+#include <snug/base/gather.h>
 #include <snug/base/run_context.h>
 #include <snug/mesh/body_mesh.h>
 #include <snug/mesh/distribute.h>
@@ -89,8 +90,7 @@ void BodyMesh<dim>::number_nodes(const Source &source)
   relevant = dealii::DoFTools::extract_locally_relevant_dofs(source.nodes);
   relevant.compress();
   const auto ends =
-    dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(
-                                               source.nodes.n_locally_owned_dofs()));
+    all_gather(comm, static_cast<unsigned int>(source.nodes.n_locally_owned_dofs()));
   first_node_of_rank.assign(1, 0);
   for (const unsigned int n : ends)
     first_node_of_rank.push_back(first_node_of_rank.back() + n);

@@ -1,4 +1,5 @@
 #include <snug/base/deal_ii_compat.h>
+#include <snug/base/gather.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/mesh/cell_shape.h>
 #include <snug/mesh/distribute.h>
@@ -165,8 +166,7 @@ Places decide_places(const CoarseMesh<dim>        &coarse,
     ranks_of_parts(parts.cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
   Places places;
   for (unsigned int body = 0; body < sets.size(); ++body)
-    for (const auto &of_rank :
-         dealii::Utilities::MPI::all_gather(communicator, parts.of_body[body].part))
+    for (const auto &of_rank : all_gather(communicator, parts.of_body[body].part))
       for (const unsigned int part : of_rank)
         {
           places.part.push_back(part);

@@ -1,4 +1,5 @@
 #include <snug/base/blocked_signals.h>
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/mesh/partition.h>
 
@@ -22,7 +23,7 @@ template <typename T>
 std::vector<T> on_rank(const unsigned int root, MPI_Comm communicator, const std::vector<T> &values)
 {
   std::vector<T> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::gather(communicator, values, root))
+  for (const auto &of_rank : gather(communicator, values, root))
     all.insert(all.end(), of_rank.begin(), of_rank.end());
   return all;
 }
@@ -214,11 +215,10 @@ Partition
 share(const CellSet<dim> &set, const std::vector<unsigned int> &parts, const unsigned int root)
 {
   // All ranks receive all parts, one integer per cell, because a scatter would need counts.
-  const auto &comm = set.communicator;
-  const auto  all  = dealii::Utilities::MPI::broadcast(comm, parts, root);
-  const auto  counts =
-    dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(set.numbers.size()));
-  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+  const auto        &comm   = set.communicator;
+  const auto         all    = dealii::Utilities::MPI::broadcast(comm, parts, root);
+  const auto         counts = all_gather(comm, static_cast<unsigned int>(set.numbers.size()));
+  const unsigned int rank   = dealii::Utilities::MPI::this_mpi_process(comm);
   // The range of this rank follows the ranges of lower ranks, as on_rank() has joined the ranges.
   const auto first = all.begin() + std::accumulate(counts.begin(), counts.begin() + rank, 0u);
   Partition  result;

@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/mesh/refined_cells.h>
 
 #include <deal.II/base/mpi.h>
@@ -34,7 +35,7 @@ std::vector<dealii::CellId> gather_cells(const std::vector<dealii::CellId> &mine
   for (const auto &cell : mine)
     packed.push_back(cell.to_binary<3>());
   std::vector<dealii::CellId> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, packed))
+  for (const auto &of_rank : all_gather(communicator, packed))
     for (const auto &cell : of_rank)
       all.emplace_back(cell);
   std::sort(all.begin(), all.end());

@@ -1,4 +1,5 @@
 #include <snug/base/assertions.h>
+#include <snug/base/gather.h>
 #include <snug/mesh/lagrange.h>
 #include <snug/mesh/surface.h>
 
@@ -53,7 +54,7 @@ template <typename T>
 std::vector<T> gathered(MPI_Comm communicator, const std::vector<T> &mine)
 {
   std::vector<T> all;
-  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, mine))
+  for (const auto &part : all_gather(communicator, mine))
     all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());

@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/mesh/tearing.h>
 
 #include <deal.II/base/mpi.h>
@@ -56,8 +57,7 @@ Tearing tear(const BodyMesh<dim> &mesh)
     }
   // Ids ascend with the rank, and on a rank with the body and the first cell of the piece.
   const auto counts =
-    dealii::Utilities::MPI::all_gather(mesh.communicator(),
-                                       static_cast<unsigned int>(tearing.subdomains.size()));
+    all_gather(mesh.communicator(), static_cast<unsigned int>(tearing.subdomains.size()));
   tearing.first_id_of_rank.assign(1, 0);
   for (const unsigned int count : counts)
     tearing.first_id_of_rank.push_back(tearing.first_id_of_rank.back() + count);

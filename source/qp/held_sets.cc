@@ -1,4 +1,5 @@
 #include <snug/base/errors.h>
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/qp/held_sets.h>
 #include <snug/qp/kkt.h>
@@ -182,7 +183,7 @@ std::vector<HeldSets::MovedSlip> HeldSets::moved_slips(const MultiVector &w,
                   {length_of_tangents(slip.cone, rates), length_of_tangents(slip.cone, w),
                    2. * slip.cone.limit(lambda) * std::abs(rate), rate < 0. ? 1. : 0.});
     }
-  const auto numbers = dealii::Utilities::MPI::all_gather(problem.context().communicator(), mine);
+  const auto             numbers = all_gather(problem.context().communicator(), mine);
   std::vector<MovedSlip> all;
   for (unsigned int rank = 0; rank < numbers.size(); ++rank)
     for (unsigned int i = 0; 4 * i < numbers[rank].size(); ++i)

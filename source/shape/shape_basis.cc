@@ -1,4 +1,5 @@
 #include <snug/base/assertions.h>
+#include <snug/base/gather.h>
 #include <snug/shape/formula_modes.h>
 #include <snug/shape/make_modes.h>
 
@@ -25,7 +26,7 @@ std::vector<std::pair<unsigned int, unsigned int>> boundaries_of(const mesh::Bod
         found.insert({face.body, face.boundary});
   const std::vector<Boundary> mine(found.begin(), found.end());
   // The set holds each boundary once in ascending order, and is the same on all ranks.
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(mesh.communicator(), mine))
+  for (const auto &of_rank : all_gather(mesh.communicator(), mine))
     found.insert(of_rank.begin(), of_rank.end());
   return {found.begin(), found.end()};
 }

@@ -1,4 +1,5 @@
 #include <snug/base/disjoint_sets.h>
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/state/gluing_rows.h>
 
@@ -326,8 +327,7 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
 {
   const MPI_Comm     comm    = mesh.communicator();
   const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(comm);
-  const auto         counts =
-    dealii::Utilities::MPI::all_gather(comm, static_cast<unsigned int>(owned.size()));
+  const auto         counts  = all_gather(comm, static_cast<unsigned int>(owned.size()));
   // Owned rows are numbered from 0. In the global numbers, the rows of lower ranks come first.
   const unsigned int first_row = std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
   n_global                     = std::accumulate(counts.begin(), counts.end(), 0u);

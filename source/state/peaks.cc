@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/contact/nearest_face.h>
 #include <snug/elasticity/stress.h>
 #include <snug/state/peaks.h>
@@ -131,7 +132,7 @@ std::vector<StressPeak<dim>> stress_peaks(const StateSolver<dim>  &solver,
     for (const auto &point : points[body])
       if (point.von_mises >= (1. - tie) * largest[body])
         take(result[body], {solver.model().body_names[body], largest[body], point.place});
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, result))
+  for (const auto &of_rank : all_gather(communicator, result))
     for (unsigned int body = 0; body < points.size(); ++body)
       take(result[body], of_rank[body]);
   for (unsigned int body = 0; body < points.size(); ++body)
@@ -160,7 +161,7 @@ DisplacementPeak<dim> displacement_peak(const ContactState<dim> &state, MPI_Comm
   for (unsigned int node = 0; node < state.displacement.size(); ++node)
     if (state.displacement[node].norm() >= (1. - tie) * largest)
       take({largest, extent, state.displacement[node], state.positions[node]});
-  for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, result))
+  for (const auto &other : all_gather(communicator, result))
     take(other);
   return result;
 }
