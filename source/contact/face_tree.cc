@@ -1,5 +1,6 @@
 #include <snug/contact/face_tree.h>
-#include <snug/faces/closest_point.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,17 @@ boxes_of(const faces::FaceShape<dim>                            &shape,
     result.emplace_back(hull_points<dim>(shape, nodes));
   return result;
 }
+
+/// Return the distance between @p x and a box; 0 inside.
+template <int dim>
+double distance(const dealii::BoundingBox<dim> &box, const dealii::Tensor<1, dim> &x)
+{
+  const auto &[lower, upper] = box.get_boundary_points();
+  double square              = 0.;
+  for (int d = 0; d < dim; ++d)
+    square += dealii::Utilities::fixed_power<2>(std::max({0., lower[d] - x[d], x[d] - upper[d]}));
+  return std::sqrt(square);
+}
 } // namespace
 
 template <int dim>
@@ -92,14 +104,30 @@ double FaceTree<dim>::bound(const dealii::Tensor<1, dim> &x) const
   return std::sqrt(square);
 }
 
+/// Take the face of the nearest box first, so that few other faces are projected on.
 template <int dim>
-std::size_t FaceTree<dim>::nearest_box(const dealii::Tensor<1, dim> &x) const
+std::vector<typename FaceTree<dim>::Nearby>
+FaceTree<dim>::nearest(const dealii::Tensor<1, dim> &x) const
 {
-  namespace bgi       = boost::geometry::index;
-  std::size_t nearest = 0;
-  for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(dealii::Point<dim>(x), 1)))
-    nearest = i;
-  return nearest;
+  namespace bgi = boost::geometry::index;
+  const dealii::Point<dim> p(x);
+  std::vector<Nearby>      result;
+  double                   reach = std::numeric_limits<double>::infinity();
+  const auto               add   = [&](const std::size_t i) {
+    result.emplace_back(i, faces::closest_point(shape, face_points[i], x));
+    reach = std::min(reach, std::sqrt(result.back().second.squared_distance) * (1. + 1e-6) +
+                                              1e-6 * extent(i));
+  };
+  for (const auto i : tree | bgi::adaptors::queried(bgi::nearest(p, 1)))
+    add(i);
+  Box cube({p, p});
+  cube.extend(reach);
+  for (const auto i : tree | bgi::adaptors::queried(bgi::intersects(cube)))
+    if (i != result.front().first && distance(boxes[i], x) <= reach)
+      add(i);
+  std::sort(result.begin(), result.end(),
+            [](const Nearby &a, const Nearby &b) { return a.first < b.first; });
+  return result;
 }
 
 template <int dim>

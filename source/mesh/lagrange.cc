@@ -3,11 +3,17 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/container/small_vector.hpp>
+
 namespace snug::mesh {
 template <int dim>
 LagrangePoint<dim> lagrange_point(const unsigned int degree, const dealii::Point<dim> &point)
 {
   const unsigned int n = dealii::Utilities::pow(degree + 1, dim);
+  boost::container::small_vector<std::array<double, 3>, dim *(surface_degree + 1)> of_axes;
+  for (int axis = 0; axis < dim; ++axis)
+    for (unsigned int i = 0; i <= degree; ++i)
+      of_axes.push_back(lagrange<2>(degree, i, point[axis]));
   LagrangePoint<dim> result;
   result.point = point;
   result.value.assign(n, 1.);
@@ -24,7 +30,7 @@ LagrangePoint<dim> lagrange_point(const unsigned int degree, const dealii::Point
         }
       for (int axis = 0; axis < dim; ++axis)
         {
-          const auto f = lagrange<2>(degree, indices[axis], point[axis]);
+          const auto &f = of_axes[axis * (degree + 1) + indices[axis]];
           result.value[a] *= f[0];
           for (int d = 0; d < dim; ++d)
             {

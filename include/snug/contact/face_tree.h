@@ -1,7 +1,7 @@
 #ifndef snug_contact_face_tree_h
 #define snug_contact_face_tree_h
 
-#include <snug/faces/face_shape.h>
+#include <snug/faces/closest_point.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -41,8 +41,12 @@ public:
   /// Return an upper bound of the distance between @p x and the nearest face [length].
   double bound(const dealii::Tensor<1, dim> &x) const;
 
-  /// Return the face whose box is nearest to @p x.
-  std::size_t nearest_box(const dealii::Tensor<1, dim> &x) const;
+  /// A face of the side with its point closest to a given point.
+  using Nearby = std::pair<std::size_t, faces::ClosestPoint<dim>>;
+
+  /// Return the faces that may be closest to @p x, ascending: those whose boxes are as near as the
+  /// closest point, up to a millionth of its distance and of the size of its face.
+  std::vector<Nearby> nearest(const dealii::Tensor<1, dim> &x) const;
 
   /// Return the faces whose boxes intersect @p box, ascending.
   std::vector<std::size_t> meeting(const Box &box) const;
