@@ -35,35 +35,53 @@ const elasticity::Material &CellFields<dim>::material(const unsigned int cell) c
 }
 
 template <int dim>
-std::vector<dealii::SymmetricTensor<2, 3>> CellFields<dim>::stresses(const unsigned int cell,
-                                                                     const Field       &u,
-                                                                     const double       thermal,
-                                                                     const Shapes      &at) const
+typename CellFields<dim>::Strained
+CellFields<dim>::strained(const unsigned int cell, const Field &u, const double thermal) const
 {
-  const unsigned int             body = solver.mesh().known_cell(cell).body;
-  elasticity::ThermalStrain<dim> strain;
+  const unsigned int body = solver.mesh().known_cell(cell).body;
+  Strained           result{at_cell(cell, u), {}};
   if (thermal != 0. && loads[body].temperature)
     if (const auto full =
           state::thermal_strain<dim>(loads[body], material(cell),
                                      at_cell(cell, solver.mesh().reference_positions())))
-      strain = [=](const auto &shape) { return thermal * full(shape); };
-  return elements[body].stresses(positions(cell), material(cell), at_cell(cell, u), at, strain);
+      result.thermal = [=](const auto &shape) { return thermal * full(shape); };
+  return result;
 }
 
 template <int dim>
-std::vector<dealii::SymmetricTensor<2, 3>>
-CellFields<dim>::fluxes(const unsigned int             cell,
-                        const LoadedDisplacement<dim> &of,
-                        const Shapes                  &at) const
+std::vector<typename CellFields<dim>::Stresses>
+CellFields<dim>::stresses(const unsigned int                          cell,
+                          const std::vector<LoadedDisplacement<dim>> &of,
+                          const Shapes                               &at) const
 {
-  auto        result = stresses(cell, of.displacement, of.thermal, at);
-  const auto &body   = solver.model().body_names[solver.mesh().known_cell(cell).body];
-  if (of.more && of.more->stress && (of.more->body.empty() || body == of.more->body))
-    {
-      const auto sigma = stresses(cell, displacement, 1., at);
-      for (unsigned int q = 0; q < at.size(); ++q)
-        result[q] -= of.more->stress(material(cell), sigma[q]);
-    }
+  std::vector<Strained> all;
+  all.reserve(of.size());
+  for (const auto &one : of)
+    all.push_back(strained(cell, one.displacement, one.thermal));
+  return elements[solver.mesh().known_cell(cell).body].stresses(positions(cell), material(cell),
+                                                                all, at);
+}
+
+template <int dim>
+std::vector<typename CellFields<dim>::Stresses>
+CellFields<dim>::fluxes(const unsigned int                          cell,
+                        const std::vector<LoadedDisplacement<dim>> &of,
+                        const Shapes                               &at) const
+{
+  const unsigned int body   = solver.mesh().known_cell(cell).body;
+  const auto        &name   = solver.model().body_names[body];
+  auto               result = stresses(cell, of, at);
+  for (unsigned int i = 0; i < of.size(); ++i)
+    if (const auto *more = of[i].more;
+        more && more->stress && (more->body.empty() || name == more->body))
+      {
+        const auto sigma =
+          elements[body]
+            .stresses(positions(cell), material(cell), {strained(cell, displacement, 1.)}, at)
+            .front();
+        for (unsigned int q = 0; q < at.size(); ++q)
+          result[i][q] -= more->stress(material(cell), sigma[q]);
+      }
   return result;
 }
 

@@ -5,37 +5,34 @@
 #include <snug/faces/outer_edges.h>
 
 namespace snug::accuracy {
-/// Nodal pressures of one pair and, for its master side, the geometry of the slave side.
+/// The geometry of the slave side of a pair.
 template <int dim>
-class ContactPressure<dim>::SlaveSide
+class ContactSides<dim>::SlaveSide
 {
 public:
   SlaveSide(const mesh::Surface<dim>                 &surface,
             const contact::Pair                      &pair,
             const typename mesh::Surface<dim>::Field &positions,
-            const faces::FaceShape<dim>              &shape,
-            std::vector<double>                       nodal)
-    : nodal(std::move(nodal))
-    , surface(surface)
+            const faces::FaceShape<dim>              &shape)
+    : surface(surface)
     , positions(positions)
     , shape(shape)
     , edges(surface, contact::faces_of(surface, pair.slave), shape)
     , faces(surface, contact::faces_of(surface, pair.slave), shape, positions)
   {}
 
-  double at(const dealii::Tensor<1, dim> &x) const
+  /// Append the shares at the closest point to @p x.
+  void add_shares(const dealii::Tensor<1, dim> &x,
+                  const unsigned int            pair,
+                  std::vector<NodeShare>       &shares) const
   {
     const auto [face, best] = faces.closest(x);
     if (edges.excess(face, best.xi, x - best.position, positions) >= contact::edge_tolerance)
-      return 0.;
+      return;
     const auto values = shape.at(best.xi).value;
-    double     sum    = 0.;
     for (unsigned int k = 0; k < values.size(); ++k)
-      sum += values[k] * nodal[surface.faces()[face].nodes[k]];
-    return sum;
+      shares.push_back({pair, surface.faces()[face].nodes[k], values[k], true});
   }
-
-  const std::vector<double> nodal; ///< per surface node
 
 private:
   const mesh::Surface<dim>                 &surface;
@@ -77,71 +74,91 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
   return values;
 }
 
+double value(const std::vector<NodeShare> &shares, const PairValues &values, const double on_master)
+{
+  double sum = 0.;
+  for (const auto &of : shares)
+    sum += (of.on_master ? on_master : 1.) * of.share * values[of.pair][of.node];
+  return sum;
+}
+
 template <int dim>
-ContactPressure<dim>::ContactPressure(const state::StateSolver<dim>  &solver,
-                                      const contact::Contact<dim>    &contact,
-                                      const state::ContactState<dim> &state,
-                                      const std::vector<double>      &of_rows)
+ContactSides<dim>::ContactSides(const state::StateSolver<dim>  &solver,
+                                const contact::Contact<dim>    &contact,
+                                const state::ContactState<dim> &state)
   : solver(solver)
   , contact(contact)
   , positions(contact.placed_surface().to_space(state.surface_positions))
   , shape(solver.mesh().degree())
 {
   const auto &surface = contact.placed_surface().surface();
-  SNUG_ASSERT_EQUAL(of_rows.size(), contact.n_rows());
   for (const auto &pair : contact.pairs())
     {
       for (const auto &boundary : pair.slave.boundaries())
         slave_of[boundary].push_back(pairs.size());
       for (const auto &boundary : pair.master.boundaries())
         master_of[boundary].push_back(pairs.size());
-      pairs.push_back(
-        std::make_unique<SlaveSide>(surface, pair, positions, shape,
-                                    nodal_values(solver, contact, pairs.size(), of_rows)));
+      pairs.push_back(std::make_unique<SlaveSide>(surface, pair, positions, shape));
     }
 }
 
 template <int dim>
-ContactPressure<dim>::~ContactPressure() = default;
+ContactSides<dim>::~ContactSides() = default;
 
 template <int dim>
-bool ContactPressure<dim>::is_on(const Face &face) const
+PairValues ContactSides<dim>::values(const std::vector<double> &of_rows) const
+{
+  PairValues result;
+  if (of_rows.empty())
+    return result;
+  SNUG_ASSERT_EQUAL(of_rows.size(), contact.n_rows());
+  for (unsigned int pair = 0; pair < pairs.size(); ++pair)
+    result.push_back(nodal_values(solver, contact, pair, of_rows));
+  return result;
+}
+
+template <int dim>
+bool ContactSides<dim>::is_on(const Face &face) const
 {
   const Boundary boundary(face.body, face.boundary);
   return slave_of.count(boundary) > 0 || master_of.count(boundary) > 0;
 }
 
 template <int dim>
-double ContactPressure<dim>::on_slave_side(const unsigned int            pair,
-                                           const dealii::Tensor<1, dim> &x) const
+std::vector<NodeShare> ContactSides<dim>::closest(const unsigned int            pair,
+                                                  const dealii::Tensor<1, dim> &x) const
 {
-  return pairs[pair]->at(x);
+  std::vector<NodeShare> result;
+  pairs[pair]->add_shares(x, pair, result);
+  return result;
 }
 
 template <int dim>
-double ContactPressure<dim>::value(const Face                   &face,
-                                   const std::vector<double>    &at_nodes,
-                                   const dealii::Tensor<1, dim> &x,
-                                   const double                  on_master) const
+std::vector<NodeShare> ContactSides<dim>::shares(const Face                   &face,
+                                                 const std::vector<double>    &at_nodes,
+                                                 const dealii::Tensor<1, dim> &x) const
 {
-  const Boundary boundary(face.body, face.boundary);
-  double         sum = 0.;
+  const Boundary         boundary(face.body, face.boundary);
+  std::vector<NodeShare> result;
   if (const auto slaves = slave_of.find(boundary); slaves != slave_of.end())
     {
       const auto &nodes = solver.mesh().cells()[face.cell].nodes;
       for (unsigned int k = 0; k < nodes.size(); ++k)
-        {
-          // Functions of nodes off the face vanish on the face.
-          const unsigned int node = solver.surface().find(solver.mesh().global_node(nodes[k]));
-          if (node < solver.surface().n_nodes())
+        // Functions of nodes off the face vanish on the face.
+        if (at_nodes[k] != 0.)
+          {
+            const unsigned int node = solver.surface().find(solver.mesh().global_node(nodes[k]));
             for (const unsigned int pair : slaves->second)
-              sum += at_nodes[k] * pairs[pair]->nodal[node];
-        }
+              result.push_back({pair, node, at_nodes[k], false});
+          }
     }
   if (const auto masters = master_of.find(boundary); masters != master_of.end())
-    for (const unsigned int pair : masters->second)
-      sum += on_master * pairs[pair]->at(contact.placement().of_body(face.body).point(x));
-  return sum;
+    {
+      const auto in_space = contact.placement().of_body(face.body).point(x);
+      for (const unsigned int pair : masters->second)
+        pairs[pair]->add_shares(in_space, pair, result);
+    }
+  return result;
 }
 
 template std::vector<double> nodal_values(const state::StateSolver<2> &,
@@ -152,6 +169,6 @@ template std::vector<double> nodal_values(const state::StateSolver<3> &,
                                           const contact::Contact<3> &,
                                           unsigned int,
                                           const std::vector<double> &);
-template class ContactPressure<2>;
-template class ContactPressure<3>;
+template class ContactSides<2>;
+template class ContactSides<3>;
 } // namespace snug::accuracy

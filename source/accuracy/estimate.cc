@@ -156,13 +156,6 @@ LoadedDisplacement<dim> loaded(const state::StateSolver<dim>  &solver,
   return u;
 }
 
-/// Return a displacement without loads.
-template <int dim>
-LoadedDisplacement<dim> unloaded(const mesh::Field<dim> &displacement, const std::size_t n_rows)
-{
-  return {displacement, std::vector<double>(n_rows, 0.), {}, {}, 0., 0.};
-}
-
 /// Estimates by a given state and given adjoints, and the ratios of the jumps that the solver left
 /// in them to their limits.
 struct Attempt
@@ -171,22 +164,17 @@ struct Attempt
   double    excess = 0., adjoint_excess = 0.;
 };
 
-/// Products of the local errors of fields and of their jumps.
+/// Products of the local errors of fields.
 template <int dim>
 class Products
 {
 public:
-  /// Compute the products of all fields and jumps. Collective.
+  /// Compute the products of all fields. Collective.
   Products(const LocalErrors<dim>                     &local,
            const std::vector<LoadedDisplacement<dim>> &fields,
-           const std::vector<LoadedDisplacement<dim>> &jumps,
            MPI_Comm                                    comm)
-    : n(fields.size()), comm(comm)
-  {
-    auto all = fields;
-    all.insert(all.end(), jumps.begin(), jumps.end());
-    of_cells = local.products(all);
-  }
+    : comm(comm), of_cells(local.products(fields))
+  {}
 
   unsigned int n_cells() const { return of_cells.size(); }
 
@@ -214,17 +202,7 @@ public:
     return std::sqrt(dealii::Utilities::MPI::sum(square, comm));
   }
 
-  /// Return the error caused by the jumps of a field over its limit. Local problems of a stiff
-  /// cell beside a soft one, or of a nearly incompressible cell, turn jumps into errors
-  /// of stress or pressure that are much larger than the energy of the jumps. Collective.
-  double excess(const unsigned int i, const double displacement) const
-  {
-    const double allowed = std::max(part_of_error * norm(i), part_of_displacement * displacement);
-    return allowed > 0. ? norm(n + i) / allowed : 0.;
-  }
-
 private:
-  const unsigned int      n;
   const MPI_Comm          comm;
   std::vector<CellErrors> of_cells;
 };
@@ -270,6 +248,32 @@ void add_rough_pressures(const state::StateSolver<dim>  &solver,
     one.add_data(of_pair.of_cells, value, solver.mesh().communicator());
 }
 
+/// The state and the adjoints of responses as fields.
+template <int dim>
+struct Fields
+{
+  std::vector<response::FieldDerivative<dim>> derivatives; ///< per response
+  std::vector<unsigned int>                   place;       ///< per response, in `all`; 0: none
+  std::vector<LoadedDisplacement<dim>>        all;         ///< the state first
+
+  Fields(const state::StateSolver<dim>                      &solver,
+         const state::ContactState<dim>                     &state,
+         const std::vector<const response::Response<dim> *> &responses,
+         const Adjoints<dim>                                &adjoints)
+    : derivatives(responses.size()), place(responses.size(), 0), all({loaded(solver, state)})
+  {
+    for (unsigned int j = 0; j < responses.size(); ++j)
+      {
+        if (responses[j]->needs_solution())
+          derivatives[j] = responses[j]->field_derivative(solver, state);
+        if (!sensitivity::needs_solve(*responses[j], solver.has_potential()))
+          continue;
+        place[j] = all.size();
+        all.push_back(adjoints.of(j, derivatives[j], all[0]));
+      }
+  }
+};
+
 /// Estimate with given tolerance of the adjoints. The adjoint of the energy is the state itself
 /// with the opposite sign, so it needs no local problem. Contact pressures of rows converge with
 /// second order. At degree 2, this is lower than the order of displacements. There the products of
@@ -282,28 +286,20 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
                 const sensitivity::Solves                           solves,
                 const double                                        adjoint_tolerance)
 {
-  const Adjoints<dim> adjoints(solver, state, responses, solves, adjoint_tolerance);
-  std::vector<response::FieldDerivative<dim>> derivatives(responses.size());
-  std::vector<LoadedDisplacement<dim>>        all        = {loaded(solver, state)};
-  auto                                        continuous = state.u;
+  const Adjoints<dim>    adjoints(solver, state, responses, solves, adjoint_tolerance);
+  const Fields<dim>      fields(solver, state, responses, adjoints);
+  const auto            &all = fields.all;
+  const LocalErrors<dim> local(solver, state);
+  const Products<dim>    products(local, all, solver.mesh().communicator());
+  const auto excess = [&](const mesh::Field<dim> &jump, const unsigned int i, const double norm) {
+    const double allowed = std::max(part_of_error * products.norm(i), part_of_displacement * norm);
+    return allowed > 0. ? error_of_jump(local, solver, state, jump, allowed) / allowed : 0.;
+  };
+  Attempt result{{energy_estimate(state, products), {}}};
+  auto    continuous = state.u;
   state::make_continuous(solver.feti(state), &solver.feti(state).g(), continuous);
-  std::vector<LoadedDisplacement<dim>> jumps = {
-    unloaded<dim>(jump(solver, state.u, continuous, 0), state.contact.size())};
-  std::vector<unsigned int> place(responses.size(), 0); // in `all`
-  for (unsigned int j = 0; j < responses.size(); ++j)
-    {
-      if (responses[j]->needs_solution())
-        derivatives[j] = responses[j]->field_derivative(solver, state);
-      if (!sensitivity::needs_solve(*responses[j], solver.has_potential()))
-        continue;
-      place[j] = all.size();
-      all.push_back(adjoints.of(j, derivatives[j], all[0]));
-      jumps.push_back(unloaded<dim>(adjoints.jump_of(j), state.contact.size()));
-    }
-  const Products<dim> products(LocalErrors<dim>(solver, state), all, jumps,
-                               solver.mesh().communicator());
-  Attempt             result{{energy_estimate(state, products), {}}};
-  result.excess = products.excess(0, state::energy_norms(solver.feti(state), state.u)[0]);
+  result.excess = excess(jump(solver, state.u, continuous, 0), 0,
+                         state::energy_norms(solver.feti(state), state.u)[0]);
   if (responses.empty())
     return result;
   const GapResidual<dim>     gaps(solver, state);
@@ -313,18 +309,19 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
   std::vector<RoughPressure> rough;
   for (unsigned int j = 0; j < responses.size(); ++j)
     {
+      const auto   place       = fields.place[j];
       const bool   is_geometry = !responses[j]->needs_solution();
-      const double sign        = is_geometry ? 0. : place[j] == 0 ? -1. : 1.;
-      const double s           = derivatives[j].stiffness;
-      const auto  &z           = all[place[j]];
-      const auto   cells       = in_cells(products, layer, place[j], sign, s / 2.);
-      if (place[j] > 0)
+      const double sign        = is_geometry ? 0. : place == 0 ? -1. : 1.;
+      const double s           = fields.derivatives[j].stiffness;
+      const auto  &z           = all[place];
+      const auto   cells       = in_cells(products, layer, place, sign, s / 2.);
+      if (place > 0)
         result.adjoint_excess =
-          std::max(result.adjoint_excess, products.excess(place[j], adjoints.norm(j)));
+          std::max(result.adjoint_excess, excess(adjoints.jump_of(j), place, adjoints.norm(j)));
       auto       one       = ResponseEstimate::of_cells(cells, gaps.integral(z.pressures), sign,
                                                         solver.mesh().communicator());
       const bool is_linear = solver.mesh().degree() == 1;
-      if (is_linear && place[j] > 0)
+      if (is_linear && place > 0)
         one.contact += gaps.excess_work(state.contact, sum(z.displacement, s, all[0].displacement));
       if (const auto read =
             responses[j]->measured(solver, state.load_case, gaps.pressures(all[0].pressures)))
@@ -335,7 +332,7 @@ Attempt attempt(const state::StateSolver<dim>                      &solver,
         }
       // J depends on loads through the state and, where J contains their work, directly.
       if (!is_geometry)
-        one.add_data(loads.works(place[j] == 0
+        one.add_data(loads.works(place == 0
                                    ? z.displacement
                                    : sum(z.displacement, s + z.loads, all[0].displacement)),
                      1., solver.mesh().communicator());

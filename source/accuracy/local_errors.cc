@@ -26,6 +26,18 @@ double correction(const mesh::BodyMesh<dim> &mesh, const unsigned int cell)
   const auto &nodes = mesh.cells()[cell].nodes;
   return mesh.degree() == 2 && mesh.is_hanging(nodes[nodes.size() / 2]) ? quadratic_elements : 1.;
 }
+
+/// Return the row @p axis of det J J^-1 from the tangents, the columns of J.
+dealii::Tensor<1, 2> normal(const dealii::Tensor<2, 2> &tangents, const unsigned int axis)
+{
+  const dealii::Tensor<1, 2> along = tangents[1 - axis];
+  return axis == 0 ? dealii::cross_product_2d(along) : -dealii::cross_product_2d(along);
+}
+
+dealii::Tensor<1, 3> normal(const dealii::Tensor<2, 3> &tangents, const unsigned int axis)
+{
+  return dealii::cross_product_3d(tangents[(axis + 1) % 3], tangents[(axis + 2) % 3]);
+}
 } // namespace
 
 template <int dim>
@@ -88,17 +100,17 @@ std::uint64_t LocalErrors<dim>::placing(const mesh::InteriorFace<dim> &face)
   return result;
 }
 
-/// Return n dA out of the cell: det J J^-T times the area vector of the reference cell, times the
-/// weight of the section.
+/// Return n dA out of the cell: det J J^-T times the area vector of the reference cell, which is
+/// the product of the tangents, times the weight of the section.
 template <int dim>
 dealii::Tensor<1, dim> LocalErrors<dim>::area_vector(const mesh::LagrangePoint<dim> &shape,
                                                      const unsigned int              face,
                                                      const Nodes                    &X) const
 {
-  const auto             J = elasticity::jacobian(shape, X);
-  dealii::Tensor<1, dim> n = dealii::Tensor<2, dim>(invert(J))[face / 2];
-  return (face % 2 == 0 ? -1. : 1.) * determinant(J) * shape.weight *
-         mesh.idealization().weight(elasticity::value(shape, X)) * n;
+  const auto   J      = elasticity::jacobian(shape, X);
+  const double factor = (face % 2 == 0 ? -1. : 1.) * shape.weight *
+                        (dim == 3 ? 1. : mesh.idealization().weight(elasticity::value(shape, X)));
+  return factor * normal(transpose(J), face / 2);
 }
 
 /// Collect the directions that are held at the center of a face. The axis of revolution holds the
@@ -153,7 +165,7 @@ typename LocalErrors<dim>::Nodes LocalErrors<dim>::body_forces(const unsigned in
 /// Add the mean of both stresses to both cells, so that the tractions of neighboring cells are
 /// opposite.
 template <int dim>
-void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual> &r) const
+void LocalErrors<dim>::add_interior_faces(const std::vector<Loaded> &of, Residuals &r) const
 {
   const unsigned int n_owned = mesh.cells().size();
   for (const auto &face : mesh.interior_faces())
@@ -163,14 +175,17 @@ void LocalErrors<dim>::add_interior_faces(const Loaded &of, std::vector<Residual
       const auto  X            = fields.positions(face.cell);
       const auto  here         = fields.fluxes(face.cell, of, at.shapes);
       const auto  there        = fields.fluxes(face.neighbour, of, at_neighbour.shapes);
-      for (unsigned int q = 0; q < here.size(); ++q)
+      for (unsigned int q = 0; q < at.shapes.size(); ++q)
         {
-          const auto force =
-            traction<dim>(0.5 * (here[q] + there[q]), area_vector(at.shapes[q], face.face, X));
-          if (face.cell < n_owned)
-            elasticity::add_force<dim>(at.functions[q], force, r[face.cell]);
-          if (face.neighbour < n_owned)
-            elasticity::add_force<dim>(at_neighbour.functions[q], -force, r[face.neighbour]);
+          const auto area = area_vector(at.shapes[q], face.face, X);
+          for (unsigned int i = 0; i < of.size(); ++i)
+            {
+              const auto force = traction<dim>(0.5 * (here[i][q] + there[i][q]), area);
+              if (face.cell < n_owned)
+                elasticity::add_force<dim>(at.functions[q], force, r[i][face.cell]);
+              if (face.neighbour < n_owned)
+                elasticity::add_force<dim>(at_neighbour.functions[q], -force, r[i][face.neighbour]);
+            }
         }
     }
 }
@@ -234,59 +249,92 @@ void LocalErrors<dim>::add_springs(const Loaded &of, std::vector<Residual> &r) c
       }
 }
 
+namespace {
+/// Pressures and tractions of rows at the nodes of the pairs; empty: none.
 template <int dim>
-void LocalErrors<dim>::add_rows(const RowTractions &rows, std::vector<Residual> &r) const
+struct NodalTractions
 {
-  const auto                &contact = *rows.contact;
-  const ContactPressure<dim> pressure(solver, contact, state, rows.pressures);
-  // components in space of the traction on the slave side
-  std::vector<std::unique_ptr<ContactPressure<dim>>> tractions;
-  for (int d = 0; d < dim && !rows.tractions.empty(); ++d)
+  PairValues                  pressures;
+  std::array<PairValues, dim> tractions; ///< components in space of the tractions
+
+  /// Return the force on a point of a body with the rigid @p motion. @p area is n dA.
+  template <typename Motion>
+  dealii::Tensor<1, dim> force(const std::vector<NodeShare> &shares,
+                               const dealii::Tensor<1, dim> &area,
+                               const Motion                 &motion) const
+  {
+    dealii::Tensor<1, dim> result;
+    if (!pressures.empty())
+      result -= value(shares, pressures) * area;
+    if (tractions[0].empty())
+      return result;
+    dealii::Tensor<1, dim> traction;
+    for (int d = 0; d < dim; ++d)
+      traction[d] = value(shares, tractions[d], -1.);
+    return result + area.norm() * motion.vector_back(traction);
+  }
+};
+} // namespace
+
+template <int dim>
+void LocalErrors<dim>::add_rows(const contact::Contact<dim>     &contact,
+                                const std::vector<RowTractions> &of,
+                                Residuals                       &r) const
+{
+  const ContactSides<dim>          sides(solver, contact, state);
+  std::vector<NodalTractions<dim>> nodal(of.size());
+  for (unsigned int i = 0; i < of.size(); ++i)
     {
-      std::vector<double> component;
-      for (const auto &traction : rows.tractions)
-        component.push_back(traction[d]);
-      tractions.push_back(
-        std::make_unique<ContactPressure<dim>>(solver, contact, state, component));
+      nodal[i].pressures = sides.values(of[i].pressures);
+      for (int d = 0; d < dim; ++d)
+        {
+          std::vector<double> component;
+          for (const auto &traction : of[i].tractions)
+            component.push_back(traction[d]);
+          nodal[i].tractions[d] = sides.values(component);
+        }
     }
   for (const auto &face : mesh.boundary_faces())
-    if (pressure.is_on(face))
+    if (sides.is_on(face))
       {
         const auto  X       = fields.positions(face.cell);
         const auto &on_face = face_points[face.number];
+        const auto &motion  = contact.placement().of_body(face.body);
         for (unsigned int q = 0; q < on_face.shapes.size(); ++q)
           {
-            const auto &shape = on_face.shapes[q];
-            const auto  x     = elasticity::value(shape, X);
-            const auto  area  = area_vector(shape, face.number, X);
-            auto        force = -pressure.value(face, shape.value, x) * area;
-            if (!tractions.empty())
-              {
-                dealii::Tensor<1, dim> traction;
-                for (int d = 0; d < dim; ++d)
-                  traction[d] = tractions[d]->value(face, shape.value, x, -1.);
-                force += area.norm() * contact.placement().of_body(face.body).vector_back(traction);
-              }
-            if (force.norm_square() != 0.)
-              elasticity::add_force<dim>(on_face.functions[q], force, r[face.cell]);
+            const auto &shape  = on_face.shapes[q];
+            const auto  area   = area_vector(shape, face.number, X);
+            const auto  shares = sides.shares(face, shape.value, elasticity::value(shape, X));
+            for (unsigned int i = 0; i < of.size(); ++i)
+              if (const auto force = nodal[i].force(shares, area, motion);
+                  force.norm_square() != 0.)
+                elasticity::add_force<dim>(on_face.functions[q], force, r[i][face.cell]);
           }
       }
 }
 
 template <int dim>
-std::vector<elasticity::LocalResidual> LocalErrors<dim>::on_faces(const Loaded &of) const
+typename LocalErrors<dim>::Residuals LocalErrors<dim>::on_faces(const std::vector<Loaded> &of) const
 {
-  std::vector<Residual> r;
-  for (const auto &cell : mesh.cells())
-    r.emplace_back(spaces[cell.body].size(), 0.);
+  Residuals r(of.size());
+  for (auto &of_cells : r)
+    for (const auto &cell : mesh.cells())
+      of_cells.emplace_back(spaces[cell.body].size(), 0.);
   add_interior_faces(of, r);
-  add_loads(of, r);
-  add_springs(of, r);
-  const auto &contact = solver.contact(state.load_case);
-  if (contact.n_rows() > 0)
-    add_rows({&contact, of.pressures, of.shears}, r);
-  if (!of.ties.empty())
-    add_rows({solver.ties().paired(), std::vector<double>(of.ties.size(), 0.), of.ties}, r);
+  std::vector<RowTractions> of_contact, of_ties;
+  bool                      has_ties = false;
+  for (unsigned int i = 0; i < of.size(); ++i)
+    {
+      add_loads(of[i], r[i]);
+      add_springs(of[i], r[i]);
+      of_contact.push_back({of[i].pressures, of[i].shears});
+      of_ties.push_back({{}, of[i].ties});
+      has_ties = has_ties || !of[i].ties.empty();
+    }
+  if (const auto &contact = solver.contact(state.load_case); contact.n_rows() > 0)
+    add_rows(contact, of_contact, r);
+  if (has_ties)
+    add_rows(*solver.ties().paired(), of_ties, r);
   return r;
 }
 
@@ -295,10 +343,8 @@ template <int dim>
 std::vector<CellErrors>
 LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
 {
-  const unsigned int                 n_cells = mesh.cells().size(), n = of.size();
-  std::vector<std::vector<Residual>> residuals; // [displacement][cell]
-  for (const auto &one : of)
-    residuals.push_back(on_faces(one));
+  const unsigned int                           n_cells = mesh.cells().size(), n = of.size();
+  auto                                         residuals = on_faces(of);
   std::vector<CellErrors>                      result(n_cells);
   std::unique_ptr<elasticity::LocalError<dim>> problem;
   for (unsigned int cell = 0; cell < n_cells; ++cell)
@@ -306,6 +352,7 @@ LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
       const auto &the_cell = mesh.cells()[cell];
       const auto &space    = spaces[the_cell.body];
       const auto  X        = fields.positions(cell);
+      const auto  fluxes   = fields.fluxes(cell, of, space.quadrature);
       if (!problem || !problem->fits(space, X, fields.material(cell), held[cell]))
         problem = std::make_unique<elasticity::LocalError<dim>>(space, X, fields.material(cell),
                                                                 held[cell]);
@@ -319,8 +366,7 @@ LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
       for (unsigned int i = 0; i < n; ++i)
         {
           auto &r = residuals[i][cell];
-          problem->add_residual(fields.fluxes(cell, of[i], space.quadrature),
-                                body_forces(cell, of[i]), r);
+          problem->add_residual(fluxes[i], body_forces(cell, of[i]), r);
           dilatations.push_back(
             problem->missing_dilatation(fields.at_cell(cell, of[i].displacement)));
           problem->subtract_dilatation(dilatations[i], r);
@@ -331,10 +377,9 @@ LocalErrors<dim>::products(const std::vector<LoadedDisplacement<dim>> &of) const
         return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
       };
       for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          // a(e_i, e_j) = r_i(e_j)
-          result[cell].products.push_back(part * (product(residuals[i][cell], errors[j]) -
-                                                  product(dilatations[i], dilatations[j])));
+        // a(e_0, e_i) = r_0(e_i)
+        result[cell].products.push_back(part * (product(residuals[0][cell], errors[i]) -
+                                                product(dilatations[0], dilatations[i])));
       for (unsigned int i = 0; i < n; ++i)
         {
           const double of_pressures = 2. * problem->dilatation_work(dilatations[i], errors[i]) +

@@ -11,18 +11,19 @@ qp::WarmStart transferred(const state::StateSolver<dim>  &from,
   std::vector<double> pressures;
   for (const auto &point : state.contact)
     pressures.push_back(point.pressure);
-  const ContactPressure<dim> pressure(from, from.contact(state.load_case), state, pressures);
-  const auto                &contact  = to.contact(state.load_case);
-  const auto                 x        = to.surface().gather(positions);
-  const auto                 in_space = contact.placed_surface().to_space(x);
-  const auto                 areas    = contact.areas(x);
-  const auto                &places   = contact.places();
-  std::vector<double>        forces;
-  bool                       any = false;
+  const ContactSides<dim> sides(from, from.contact(state.load_case), state);
+  const auto              nodal    = sides.values(pressures);
+  const auto             &contact  = to.contact(state.load_case);
+  const auto              x        = to.surface().gather(positions);
+  const auto              in_space = contact.placed_surface().to_space(x);
+  const auto              areas    = contact.areas(x);
+  const auto             &places   = contact.places();
+  std::vector<double>     forces;
+  bool                    any = false;
   for (unsigned int i = 0; i < places.size(); ++i)
     {
-      forces.push_back(
-        std::max(0., areas[i] * pressure.on_slave_side(places[i].pair, in_space[places[i].slave])));
+      const auto shares = sides.closest(places[i].pair, in_space[places[i].slave]);
+      forces.push_back(std::max(0., areas[i] * value(shares, nodal)));
       any = any || forces.back() > 0.;
     }
   if (!any)

@@ -27,20 +27,26 @@ dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
   return result;
 }
 
+template <int dim>
+InverseJacobian<dim>::InverseJacobian(const mesh::LagrangePoint<dim> &shape,
+                                      const Nodes                    &X,
+                                      const mesh::Idealization       &idealization)
+  : shape(shape)
+  , inverse(invert(jacobian(shape, X)))
+  , radius(idealization.is_axisymmetric() ? value(shape, X)[0] : 0.)
+{}
+
 /// Compute du/dx = du/d xi J^-1, and u_r / r in axisymmetric models.
 template <int dim>
-dealii::Tensor<2, 3> gradient(const mesh::LagrangePoint<dim>            &shape,
-                              const std::vector<dealii::Tensor<1, dim>> &X,
-                              const std::vector<dealii::Tensor<1, dim>> &u,
-                              const mesh::Idealization                  &idealization)
+dealii::Tensor<2, 3> InverseJacobian<dim>::gradient(const Nodes &u) const
 {
-  const auto           in_plane = jacobian(shape, u) * invert(jacobian(shape, X));
+  const auto           in_plane = jacobian(shape, u) * inverse;
   dealii::Tensor<2, 3> result;
   for (unsigned int c = 0; c < dim; ++c)
     for (unsigned int d = 0; d < dim; ++d)
       result[c][d] = in_plane[c][d];
-  if (idealization.is_axisymmetric())
-    result[2][2] = value(shape, u)[0] / value(shape, X)[0];
+  if (radius != 0.)
+    result[2][2] = value(shape, u)[0] / radius;
   return result;
 }
 
@@ -119,10 +125,7 @@ void CellPoint<dim>::add_source(const dealii::Tensor<1, dim> &source, Nodes &f) 
                                            const std::vector<dealii::Tensor<1, dim>> &); \
   template dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim> &,                \
                                         const std::vector<dealii::Tensor<1, dim>> &);    \
-  template dealii::Tensor<2, 3>   gradient(const mesh::LagrangePoint<dim> &,             \
-                                           const std::vector<dealii::Tensor<1, dim>> &,  \
-                                           const std::vector<dealii::Tensor<1, dim>> &,  \
-                                           const mesh::Idealization &);                  \
+  template struct InverseJacobian<dim>;                                                  \
   template struct CellPoint<dim>;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

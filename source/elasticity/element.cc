@@ -138,22 +138,54 @@ double Element<dim>::volume(const Nodes &X) const
 }
 
 template <int dim>
-std::vector<dealii::SymmetricTensor<2, 3>>
+typename Element<dim>::Stresses
 Element<dim>::stresses(const Nodes                                 &X,
                        const Material                              &material,
                        const Nodes                                 &u,
                        const std::vector<mesh::LagrangePoint<dim>> &shapes,
                        const ThermalStrain<dim>                    &thermal) const
 {
-  std::vector<dealii::SymmetricTensor<2, 3>> result;
-  result.reserve(shapes.size());
-  if (formulation == Formulation::standard && !thermal)
+  return stresses(X, material, {{u, thermal}}, shapes).front();
+}
+
+template <int dim>
+std::vector<typename Element<dim>::Stresses>
+Element<dim>::stresses(const Nodes                                 &X,
+                       const Material                              &material,
+                       const std::vector<Strained>                 &fields,
+                       const std::vector<mesh::LagrangePoint<dim>> &shapes) const
+{
+  std::vector<Stresses> result(fields.size());
+  const bool            is_plain =
+    formulation == Formulation::standard &&
+    std::none_of(fields.begin(), fields.end(), [](const auto &field) { return field.thermal; });
+  if (!is_plain)
     {
-      for (const auto &shape : shapes)
-        result.push_back(cauchy_stress(material, strain(idealization, material,
-                                                        gradient(shape, X, u, idealization))));
+      for (unsigned int i = 0; i < fields.size(); ++i)
+        result[i] = projected_stresses(X, material, fields[i], shapes);
       return result;
     }
+  for (auto &of_field : result)
+    of_field.reserve(shapes.size());
+  for (const auto &shape : shapes)
+    {
+      const InverseJacobian<dim> at(shape, X, idealization);
+      for (unsigned int i = 0; i < fields.size(); ++i)
+        result[i].push_back(
+          cauchy_stress(material, strain(idealization, material, at.gradient(fields[i].u))));
+    }
+  return result;
+}
+
+/// Return the stresses with projected dilatations and thermal strains.
+template <int dim>
+typename Element<dim>::Stresses
+Element<dim>::projected_stresses(const Nodes                                 &X,
+                                 const Material                              &material,
+                                 const Strained                              &field,
+                                 const std::vector<mesh::LagrangePoint<dim>> &shapes) const
+{
+  Stresses result;
   // The points of a projection come first, the points that receive values follow.
   auto               points = gauss_points(X);
   const unsigned int first  = points.size();
@@ -163,11 +195,11 @@ Element<dim>::stresses(const Nodes                                 &X,
       points.emplace_back(shape, X, idealization);
       points.back().dV = 0.;
     }
-  const auto states = point_states(points, material, u);
+  const auto states = point_states(points, material, field.u);
   for (unsigned int q = first; q < states.size(); ++q)
     result.push_back(states[q].stress);
-  if (thermal)
-    subtract_thermal(points, material, thermal, result);
+  if (field.thermal)
+    subtract_thermal(points, material, field.thermal, result);
   return result;
 }
 

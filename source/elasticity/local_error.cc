@@ -145,7 +145,11 @@ LocalError<dim>::LocalError(const LocalSpace<dim> &space,
   const auto         A = matrix();
   const unsigned int n = basis.size(), size = space.size();
   factor.reinit(n);
-  for (unsigned int k = 0; k < n; ++k)
+  // Without held directions the basis is that of V.
+  for (unsigned int k = 0; n == size && k < n; ++k)
+    for (unsigned int l = 0; l <= k; ++l)
+      factor(k, l) = A[k * size + l];
+  for (unsigned int k = 0; n < size && k < n; ++k)
     for (unsigned int l = 0; l <= k; ++l)
       {
         const auto &[i, u] = basis[k];
@@ -183,6 +187,7 @@ template <int dim>
 void LocalError<dim>::find_basis()
 {
   basis.reserve(space.size());
+  const auto axes = free_directions<dim>({});
   for (unsigned int i = 0; i < space.functions.size(); ++i)
     {
       std::vector<dealii::Tensor<1, dim>> of_function;
@@ -195,9 +200,27 @@ void LocalError<dim>::find_basis()
               if (direction.norm() > 1e-6)
                 of_function.push_back(direction / direction.norm());
             }
-      for (const auto &direction : free_directions<dim>(of_function))
+      for (const auto &direction : of_function.empty() ? axes : free_directions<dim>(of_function))
         basis.emplace_back(i, direction);
     }
+}
+
+/// Return the integrals of f_i,c f_j,d.
+template <int dim>
+dealii::LAPACKFullMatrix<double> LocalError<dim>::gradient_products() const
+{
+  const unsigned int               n = space.functions.size(), size = space.size();
+  dealii::LAPACKFullMatrix<double> gradients(at.size(), size), weighted(at.size(), size);
+  for (unsigned int q = 0; q < at.size(); ++q)
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          gradients(q, dim * i + c) = at[q][i].gradient[c];
+          weighted(q, dim * i + c)  = dV[q] * at[q][i].gradient[c];
+        }
+  dealii::LAPACKFullMatrix<double> result(size);
+  weighted.Tmmult(result, gradients);
+  return result;
 }
 
 /// Return a(e, v), row by row, below the diagonal of functions. For functions f_i and f_j times
@@ -207,15 +230,15 @@ template <int dim>
 std::vector<double> LocalError<dim>::matrix(const double lambda, const double mu) const
 {
   const unsigned int  n = space.functions.size(), size = space.size();
+  const auto          products = gradient_products();
   std::vector<double> A(size * size, 0.);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j <= i; ++j)
       {
-        double gradients[dim][dim] = {}, divergences[dim][dim];
-        for (unsigned int q = 0; q < at.size(); ++q)
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              gradients[c][d] += dV[q] * at[q][i].gradient[c] * at[q][j].gradient[d];
+        double gradients[dim][dim], divergences[dim][dim];
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            gradients[c][d] = products(dim * i + c, dim * j + d);
         std::copy(&gradients[0][0], &gradients[0][0] + dim * dim, &divergences[0][0]);
         double hoops = 0.;
         for (unsigned int q = 0; space.idealization.is_axisymmetric() && q < at.size(); ++q)
@@ -322,14 +345,18 @@ void LocalError<dim>::add_residual(const Stresses &sigma, const Nodes &b, LocalR
 {
   for (unsigned int q = 0; q < at.size(); ++q)
     {
+      dealii::Tensor<2, dim> in_plane;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          in_plane[c][d] = dV[q] * sigma[q][c][d];
+      const double hoop = dV[q] * sigma[q][2][2];
       for (unsigned int i = 0; i < at[q].size(); ++i)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            double flux = c == 0 ? sigma[q][2][2] * at[q][i].hoop : 0.;
+        {
+          for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
-              flux += sigma[q][c][d] * at[q][i].gradient[d];
-            r[dim * i + c] -= dV[q] * flux;
-          }
+              r[dim * i + c] -= in_plane[c][d] * at[q][i].gradient[d];
+          r[dim * i] -= hoop * at[q][i].hoop;
+        }
       if (!b.empty())
         add_force<dim>(space.at_quadrature[q], dV[q] * b[q], r);
     }

@@ -11,7 +11,7 @@ template <int dim>
 struct LoadedDisplacement
 {
   mesh::Field<dim> displacement; ///< at all local nodes
-  /// pressures of the contact rows [force / length^2]
+  /// pressures of the contact rows [force / length^2]; empty: none
   std::vector<double> pressures;
   /// friction tractions of the contact rows on the slave sides, in space [force / length^2]; empty:
   /// none
@@ -30,9 +30,10 @@ template <int dim>
 class CellFields
 {
 public:
-  using Field  = mesh::Field<dim>;
-  using Nodes  = std::vector<dealii::Tensor<1, dim>>; ///< per node of a cell
-  using Shapes = std::vector<mesh::LagrangePoint<dim>>;
+  using Field    = mesh::Field<dim>;
+  using Nodes    = std::vector<dealii::Tensor<1, dim>>; ///< per node of a cell
+  using Shapes   = std::vector<mesh::LagrangePoint<dim>>;
+  using Stresses = typename elasticity::Element<dim>::Stresses;
 
   /// Use the geometry of @p state. References must outlive this object. Collective.
   CellFields(const state::StateSolver<dim> &solver, const state::ContactState<dim> &state);
@@ -41,19 +42,24 @@ public:
   Nodes positions(unsigned int cell) const { return at_cell(cell, local_positions); }
   const elasticity::Material &material(unsigned int cell) const;
 
-  /// Return the stresses of the displacement @p u and of @p thermal times the thermal strains of
-  /// the load case at points of a cell, with the element's formulation.
-  std::vector<dealii::SymmetricTensor<2, 3>>
-  stresses(unsigned int cell, const Field &u, double thermal, const Shapes &at) const;
+  /// Return the stresses of each displacement and of its factor times the thermal strains of the
+  /// load case at points of a cell, with the element's formulation.
+  std::vector<Stresses> stresses(unsigned int                                cell,
+                                 const std::vector<LoadedDisplacement<dim>> &of,
+                                 const Shapes                               &at) const;
 
-  /// Return the stresses of the displacement minus the further stress that acts: the flux that is
-  /// continuous between cells.
-  std::vector<dealii::SymmetricTensor<2, 3>>
-  fluxes(unsigned int cell, const LoadedDisplacement<dim> &of, const Shapes &at) const;
+  /// Return the stresses() of each displacement minus the further stress that acts: the flux that
+  /// is continuous between cells.
+  std::vector<Stresses>
+  fluxes(unsigned int cell, const std::vector<LoadedDisplacement<dim>> &of, const Shapes &at) const;
 
   const Field local_positions, displacement;
 
 private:
+  using Strained = typename elasticity::Element<dim>::Strained;
+
+  Strained strained(unsigned int cell, const Field &u, double thermal) const;
+
   const state::StateSolver<dim>            &solver;
   const std::vector<state::BodyLoads<dim>> &loads;    ///< per body
   std::vector<elasticity::Element<dim>>     elements; ///< per body

@@ -17,40 +17,54 @@ std::vector<double> nodal_values(const state::StateSolver<dim> &solver,
                                  unsigned int                   pair,
                                  const std::vector<double>     &of_rows);
 
+/// The share of a slave node of a pair in the value at a point.
+struct NodeShare
+{
+  unsigned int pair, node;
+  double       share;
+  bool         on_master; ///< whether the point lies on the master side
+};
+
+/// Values at all surface nodes for each pair.
+using PairValues = std::vector<std::vector<double>>;
+
+/// Return the sum of the shares times the values. Values on a master side have the factor
+/// @p on_master, which is -1 for components of tractions on the slave side.
+double value(const std::vector<NodeShare> &shares, const PairValues &values, double on_master = 1.);
+
 /**
- * The pressure of contact rows as a function on both sides of their pairs [force / length^2]. On a
- * slave side it interpolates the pressures of the rows at its nodes by the shape functions, with 0
- * at nodes without a row. On a master side it is the pressure at the closest point of the slave
- * side, and 0 beyond the end of the slave side. The values per row need not be pressures.
+ * The sides of contact pairs, on which values of contact rows are functions. On a slave side they
+ * interpolate the values of the rows at its nodes by the shape functions, with 0 at nodes without a
+ * row. On a master side the value is that at the closest point of the slave side, and 0 beyond the
+ * end of the slave side. A point is searched for only once, whatever the number of functions.
  */
 template <int dim>
-class ContactPressure
+class ContactSides
 {
 public:
   using Face = typename mesh::BodyMesh<dim>::Face;
 
-  /// @p of_rows are in the order of the rows of @p contact, in the geometry of @p state. References
-  /// must outlive this object. Collective.
-  ContactPressure(const state::StateSolver<dim>  &solver,
-                  const contact::Contact<dim>    &contact,
-                  const state::ContactState<dim> &state,
-                  const std::vector<double>      &of_rows);
-  ~ContactPressure();
+  /// Use the geometry of @p state. References must outlive this object. Collective.
+  ContactSides(const state::StateSolver<dim>  &solver,
+               const contact::Contact<dim>    &contact,
+               const state::ContactState<dim> &state);
+  ~ContactSides();
+
+  /// Return the values at the nodes of all pairs from values in the order of the contact rows,
+  /// which need not be pressures; none from no values.
+  PairValues values(const std::vector<double> &of_rows) const;
 
   /// Return whether a face lies on a side of a pair.
   bool is_on(const Face &face) const;
 
-  /// Return the value at the point @p x of a face. @p shape are the shape functions of the nodes
-  /// of its cell at the point. Values on the master side have the factor @p on_master, which is -1
-  /// for components of tractions on the slave side.
-  double value(const Face                   &face,
-               const std::vector<double>    &shape,
-               const dealii::Tensor<1, dim> &x,
-               double                        on_master = 1.) const;
+  /// Return the shares of the nodes at the point @p x of a face. @p shape are the shape functions
+  /// of the nodes of its cell at the point.
+  std::vector<NodeShare>
+  shares(const Face &face, const std::vector<double> &shape, const dealii::Tensor<1, dim> &x) const;
 
-  /// Return the value of a pair at the point of its slave side closest to @p x in space; 0 beyond
-  /// the end of the slave side.
-  double on_slave_side(unsigned int pair, const dealii::Tensor<1, dim> &x) const;
+  /// Return the shares at the point of the slave side of a pair closest to @p x in space; none
+  /// beyond the end of the slave side.
+  std::vector<NodeShare> closest(unsigned int pair, const dealii::Tensor<1, dim> &x) const;
 
 private:
   class SlaveSide;

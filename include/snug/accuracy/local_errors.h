@@ -16,8 +16,8 @@ namespace snug::accuracy {
 /// that of mixed elements of degree 2.
 struct CellErrors
 {
-  /// a(e_i, e_j), row by row; for B-bar a_+(e_i, e_j) - kappa (d_i, d_j), which contains the errors
-  /// of the pressures
+  /// a(e_0, e_i); for B-bar a_+(e_0, e_i) - kappa (d_0, d_i), which contains the errors of the
+  /// pressures
   std::vector<double> products;
   /// norms of the errors of the stress: a(e_i, e_i)^(1/2); for B-bar
   /// (a_+(e_i, e_i) + kappa (d_i, 2 div e_i + d_i))^(1/2)
@@ -28,7 +28,7 @@ struct CellErrors
  * This class solves the local problems of LocalError in all cells of this rank, with tractions
  *   t = (sigma_h + sigma_h') n / 2   between cells, with sigma_h' of the neighbor,
  *   t = traction of the loads        on the boundary,
- *   t = -p n                         on both sides of contact (ContactPressure), plus friction,
+ *   t = -p n                         on both sides of contact (ContactSides), plus friction,
  *   t of the rows                    on both sides of ties, with opposite signs,
  *   t = -k (q . u) q                 of springs with the stiffness k per area along the unit
  *                                    vector q,
@@ -59,6 +59,15 @@ private:
     std::vector<Functions>                functions;
   };
 
+  using Residuals = std::vector<std::vector<Residual>>; ///< [displacement][cell]
+
+  /// Pressures and tractions on the slave side of rows of contact or of ties; empty: none.
+  struct RowTractions
+  {
+    std::vector<double>                 pressures;
+    std::vector<dealii::Tensor<1, dim>> tractions;
+  };
+
   const state::StateSolver<dim>           &solver;
   const state::ContactState<dim>          &state;
   const mesh::BodyMesh<dim>               &mesh;
@@ -77,18 +86,14 @@ private:
         area_vector(const mesh::LagrangePoint<dim> &shape, unsigned int face, const Nodes &X) const;
   void  find_held();
   Nodes body_forces(unsigned int cell, const Loaded &of) const;
-  void  add_interior_faces(const Loaded &of, std::vector<Residual> &r) const;
+  void  add_interior_faces(const std::vector<Loaded> &of, Residuals &r) const;
   void  add_loads(const Loaded &of, std::vector<Residual> &r) const;
-  /// Pressures and tractions of the rows of contact or of ties.
-  struct RowTractions
-  {
-    const contact::Contact<dim>        *contact;
-    std::vector<double>                 pressures; ///< empty: none
-    std::vector<dealii::Tensor<1, dim>> tractions; ///< on the slave side; empty: none
-  };
-  void                  add_rows(const RowTractions &rows, std::vector<Residual> &r) const;
-  void                  add_springs(const Loaded &of, std::vector<Residual> &r) const;
-  std::vector<Residual> on_faces(const Loaded &of) const;
+  /// Add the pressures and the tractions of contact or tied rows to the residuals.
+  void      add_rows(const contact::Contact<dim>     &contact,
+                     const std::vector<RowTractions> &of,
+                     Residuals                       &r) const;
+  void      add_springs(const Loaded &of, std::vector<Residual> &r) const;
+  Residuals on_faces(const std::vector<Loaded> &of) const;
 };
 } // namespace snug::accuracy
 

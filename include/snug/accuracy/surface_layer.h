@@ -4,6 +4,10 @@
 #include <snug/accuracy/applied_forces.h>
 #include <snug/accuracy/contact_pressure.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
+#include <array>
+
 namespace snug::accuracy {
 /**
  * The layer between the faces of a mesh and the true surface. Each point y of a face corresponds
@@ -31,11 +35,10 @@ private:
   using Face  = typename mesh::BodyMesh<dim>::Face;
   using Field = mesh::Field<dim>;
 
-  /// A point of a face in its cell, and the corresponding point of the true surface.
+  /// A point of a face, and the corresponding point of the true surface.
   struct Point
   {
-    mesh::LagrangePoint<dim> shape;
-    FacePoint<dim>           on_face, on_surface;
+    FacePoint<dim> on_face, on_surface;
   };
   /// Values of a displacement at a point of a face.
   struct Local
@@ -46,20 +49,28 @@ private:
     dealii::Tensor<1, dim>        change_along_normal; ///< change along the normal of the face
     dealii::Tensor<1, dim> same; ///< forces that are equal on the face and on the true surface
     dealii::Tensor<1, dim> by_area, by_area_beyond;
+    dealii::Tensor<1, dim> by_volume;
   };
 
-  std::vector<Point> points(const Face &face) const;
-  bool               is_supported(const Face &face) const;
-  static double      work_beyond(const Local &of, const Local &on);
-  std::vector<Local> locals(const Face                 &face,
-                            const std::vector<Point>   &at,
-                            const Loaded               &of,
-                            const ContactPressure<dim> *contact) const;
+  std::vector<Point>              points(const Face &face) const;
+  bool                            is_flat(const std::vector<Point> &at) const;
+  bool                            is_supported(const Face &face) const;
+  static double                   work_beyond(const Local &of, const Local &on);
+  std::vector<std::vector<Local>> locals(const Face                    &face,
+                                         const std::vector<Point>      &at,
+                                         const std::vector<Loaded>     &of,
+                                         const ContactSides<dim>       *sides,
+                                         const std::vector<PairValues> &pressures) const;
 
   const state::StateSolver<dim>  &solver;
   const state::ContactState<dim> &state;
   const CellFields<dim>           fields;
   const AppliedForces<dim>        applied;
+  const dealii::QGauss<dim - 1>   gauss;
+  /// functions of the nodes and of the samples of a face, and of a cell at each of its faces, at
+  /// the points
+  std::vector<mesh::LagrangePoint<dim - 1>>                  at_nodes, at_samples;
+  std::array<std::vector<mesh::LagrangePoint<dim>>, 2 * dim> in_cell;
 };
 } // namespace snug::accuracy
 

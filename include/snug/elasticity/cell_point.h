@@ -20,12 +20,25 @@ template <int dim>
 dealii::Tensor<1, dim> value(const mesh::LagrangePoint<dim>            &shape,
                              const std::vector<dealii::Tensor<1, dim>> &u);
 
-/// Return CellPoint::gradient() of @p u without the rest of a CellPoint, at a fraction of the cost.
+/// This struct holds the part of a CellPoint from which gradients follow, at a fraction of the
+/// cost.
 template <int dim>
-dealii::Tensor<2, 3> gradient(const mesh::LagrangePoint<dim>            &shape,
-                              const std::vector<dealii::Tensor<1, dim>> &X,
-                              const std::vector<dealii::Tensor<1, dim>> &u,
-                              const mesh::Idealization                  &idealization);
+struct InverseJacobian
+{
+  using Nodes = std::vector<dealii::Tensor<1, dim>>;
+
+  /// The shape must outlive this object; J must be regular.
+  InverseJacobian(const mesh::LagrangePoint<dim> &shape,
+                  const Nodes                    &X,
+                  const mesh::Idealization       &idealization);
+
+  /// Return CellPoint::gradient().
+  dealii::Tensor<2, 3> gradient(const Nodes &u) const;
+
+  const mesh::LagrangePoint<dim> &shape;
+  dealii::Tensor<2, dim>          inverse; ///< J^-1 [1/length]
+  double                          radius;  ///< 0 unless axisymmetric
+};
 
 /**
  * A point of a cell with nodes X: g_a = J^-T dN_a/d xi.

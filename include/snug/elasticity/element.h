@@ -51,7 +51,15 @@ template <int dim>
 class Element
 {
 public:
-  using Nodes = std::vector<dealii::Tensor<1, dim>>;
+  using Nodes    = std::vector<dealii::Tensor<1, dim>>;
+  using Stresses = std::vector<dealii::SymmetricTensor<2, 3>>;
+
+  /// A displacement with the thermal strain that acts; null: none.
+  struct Strained
+  {
+    Nodes              u;
+    ThermalStrain<dim> thermal;
+  };
 
   /// @p degree is 1 or 2. B-bar is not available for plane stress, which does not lock.
   explicit Element(unsigned int              degree,
@@ -141,12 +149,17 @@ public:
 
   /// Return the Cauchy stress at points of the reference cube [0,1]^dim. @p shapes are the
   /// functions of degree p at the points.
-  std::vector<dealii::SymmetricTensor<2, 3>>
-  stresses(const Nodes                                 &X,
-           const Material                              &material,
-           const Nodes                                 &u,
-           const std::vector<mesh::LagrangePoint<dim>> &shapes,
-           const ThermalStrain<dim>                    &thermal = {}) const;
+  Stresses stresses(const Nodes                                 &X,
+                    const Material                              &material,
+                    const Nodes                                 &u,
+                    const std::vector<mesh::LagrangePoint<dim>> &shapes,
+                    const ThermalStrain<dim>                    &thermal = {}) const;
+
+  /// Return the Cauchy stresses of several displacements, which share the geometry of the points.
+  std::vector<Stresses> stresses(const Nodes                                 &X,
+                                 const Material                              &material,
+                                 const std::vector<Strained>                 &fields,
+                                 const std::vector<mesh::LagrangePoint<dim>> &shapes) const;
 
   /**
    * Return the quality of the cell: the minimum det J over Gauss points and nodes, divided by the
@@ -203,6 +216,11 @@ private:
                         const Material                             &material,
                         const ThermalStrain<dim>                   &thermal,
                         std::vector<dealii::SymmetricTensor<2, 3>> &stresses) const;
+
+  Stresses projected_stresses(const Nodes                                 &X,
+                              const Material                              &material,
+                              const Strained                              &field,
+                              const std::vector<mesh::LagrangePoint<dim>> &shapes) const;
 
   std::vector<PointState> point_states(const std::vector<CellPoint<dim>> &points,
                                        const Material                    &material,

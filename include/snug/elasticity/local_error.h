@@ -152,10 +152,11 @@ private:
   std::vector<std::vector<double>> missing;
   std::vector<LocalResidual> missing_rows; ///< products of the functions in `missing` with div v
 
-  std::vector<double> matrix();
-  std::vector<double> matrix(double lambda, double mu) const;
-  void                add_projected(double factor, std::vector<double> &A);
-  void                find_basis();
+  std::vector<double>              matrix();
+  std::vector<double>              matrix(double lambda, double mu) const;
+  dealii::LAPACKFullMatrix<double> gradient_products() const;
+  void                             add_projected(double factor, std::vector<double> &A);
+  void                             find_basis();
 };
 } // namespace snug::elasticity
 

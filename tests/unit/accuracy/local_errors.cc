@@ -1,4 +1,7 @@
 #include <snug/accuracy/estimate.h>
+#include <snug/accuracy/jumps.h>
+#include <snug/accuracy/local_errors.h>
+#include <snug/mesh/shared_nodes.h>
 
 #include <gtest/gtest.h>
 #include <unit/accuracy/guided_blocks.h>
@@ -160,6 +163,59 @@ TEST(EnergyEstimate, SeesNearlyIncompressibleCells)
             EXPECT_GT(found, 0.9) << nu << ", degree " << degree << ", to " << tolerance;
             EXPECT_LT(found, 1.6) << nu << ", degree " << degree << ", to " << tolerance;
           }
+      }
+}
+
+namespace {
+/// Compare the local errors of a rough field and of one at a single node with their bound.
+template <int dim>
+void expect_bound(const TestScene<dim> &scene, const std::string &what)
+{
+  Problem<dim>                           problem(scene, MPI_COMM_SELF);
+  const auto                             state = problem.solve();
+  const accuracy::LocalErrors<dim>       local(problem.solver, state);
+  std::mt19937                           generator(3);
+  std::uniform_real_distribution<double> uniform(0., 1.);
+  const unsigned int                     n = problem.mesh.n_local_nodes();
+  for (const unsigned int only : {n, n / 2, n / 3, n - 1})
+    {
+      mesh::Field<dim> jump(n);
+      for (unsigned int node = 0; node < n; ++node)
+        for (unsigned int d = 0; d < dim; ++d)
+          jump[node][d] = only == n || only == node ? uniform(generator) : 0.;
+      problem.mesh.interpolate_hanging(jump);
+      double square = 0.;
+      for (const auto &cell : local.products({{jump, {}, {}, {}, 0., 0.}}))
+        square += cell.norms[0] * cell.norms[0];
+      const double bound = accuracy::bound_of_errors(problem.solver, state, jump);
+      EXPECT_LT(3. * std::sqrt(square), bound) << what << ", node " << only;
+      EXPECT_GT(1e6 * std::sqrt(square), bound) << what << ", node " << only;
+    }
+}
+} // namespace
+
+/// Whatever the materials that meet, Poisson's ratio and the shape of cells.
+TEST(EnergyEstimate, BoundsErrorsOfJumps)
+{
+  if (!is_alone())
+    return;
+  for (const double nu : {0., 0.49, 0.49999})
+    for (const unsigned int degree : {1, 2})
+      {
+        expect_bound(nearly_incompressible<2>(6, nu, degree, 1e-9), "mixed, plane");
+        expect_bound(nearly_incompressible<3>(2, nu, degree, 1e-9), "mixed, solid");
+      }
+  for (const double modulus : {1e-2, 1e7})
+    for (const double flat : {1., 0.01, 50.})
+      {
+        auto scene = guided_blocks<2>(6, 5);
+        for (auto &body : scene.bodies)
+          {
+            body.core_from           = 0.5;
+            body.core.youngs_modulus = modulus;
+            body.size[1]             = flat;
+          }
+        expect_bound(scene, "materials, " + std::to_string(modulus) + ", " + std::to_string(flat));
       }
 }
 
