@@ -140,7 +140,7 @@ void Adaptation<dim>::estimate(Adapted &adapted) const
                                           scene.gradient.solves, solved_on);
       if (solved_on)
         state = std::move(*solved_on);
-      MeshError error{std::move(estimates.energy), {}};
+      MeshError error{state.load_case, std::move(estimates.energy), {}};
       for (unsigned int j = 0; j < targets.size(); ++j)
         error.responses.emplace_back(targets[j].first, std::move(estimates.responses[j]));
       adapted.errors.push_back(std::move(error));

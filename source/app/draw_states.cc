@@ -17,13 +17,14 @@ void Results<dim>::draw(const double                  time,
   const std::vector<unsigned int> none;
   for (unsigned int c = 0; c < states.size(); ++c)
     {
+      const auto       *of_case = find_errors(errors, c);
       const std::string folder =
         states.size() > 1 ? problem->scene.load_cases[c].name + "/" : std::string();
       fields.push_back(
         folder + pictures[c].fields.write({*problem->mesh, problem->tearing, solver.model().bodies,
                                            solver.model().load_cases[c]},
                                           time, states[c], gradient ? &*gradient : nullptr,
-                                          errors.empty() ? nullptr : &errors[c].energy.cells));
+                                          of_case ? &of_case->energy.cells : nullptr));
       const auto &contact = solver.contact(c);
       faces.push_back(
         folder +

@@ -163,10 +163,10 @@ void print_result_table(const Search<dim>                        &search,
           rows.back().remark = quantity_of(scene, response);
         }
     }
-  for (unsigned int c = 0; c < search.results.errors().size(); ++c)
-    rows.push_back({(is_one ? "" : scene.load_cases[c].name + '.') + "discretization error", "",
-                    text_of(100. * search.results.errors()[c].energy.relative, 0.) + " %",
-                    "estimated, in the energy norm"});
+  for (const auto &error : search.results.errors())
+    rows.push_back(
+      {(is_one ? "" : scene.load_cases[error.load_case].name + '.') + "discretization error", "",
+       text_of(100. * error.energy.relative, 0.) + " %", "estimated, in the energy norm"});
   print(search.problem.context.out(Verbosity::quiet), rows);
   auto &out = search.problem.context.out();
   for (const auto &state : states)

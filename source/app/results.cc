@@ -179,10 +179,10 @@ void Results<dim>::add_last(const double                  time,
   count_rows();
   const auto summarized = [&](const unsigned int c) {
     std::optional<io::Summary::Accuracy> accuracy;
-    if (!errors.empty())
+    if (const auto *of_case = find_errors(errors, c))
       {
-        accuracy = {errors[c].energy.error, errors[c].energy.relative, {}};
-        for (const auto &[name, of_response] : errors[c].responses)
+        accuracy = {of_case->energy.error, of_case->energy.relative, {}};
+        for (const auto &[name, of_response] : of_case->responses)
           accuracy->responses.emplace_back(name, of_response.error());
       }
     return io::summarize(states[c], response_values(states[c]), accuracy);
@@ -209,10 +209,12 @@ void Results<dim>::advise(const States &states)
 {
   const RunContext::Timer               timer(problem->context, "advice");
   std::vector<accuracy::EnergyEstimate> estimates;
-  for (const auto &error : last_errors)
-    estimates.push_back(error.energy);
-  for (unsigned int c = estimates.size(); c < states.size(); ++c) // those of responses had failed
-    estimates.push_back(accuracy::estimate_energy(*problem->solver, states[c]));
+  for (unsigned int c = 0; c < states.size(); ++c)
+    {
+      const auto *known = find_errors(last_errors, c);
+      estimates.push_back(known ? known->energy
+                                : accuracy::estimate_energy(*problem->solver, states[c]));
+    }
   advice::AdviceInput<dim> input{problem->scene, *problem->solver, *problem->shapes, states,
                                  estimates};
   double                   smallest = std::numeric_limits<double>::infinity();

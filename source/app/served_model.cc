@@ -325,11 +325,11 @@ void ServedModel<dim>::add_errors(const States &states, Json &answer)
 {
   const auto errors = mesh_errors(*problem, states, accuracy::Estimate::responses);
   answer["errors"]  = Json::object();
-  for (unsigned int c = 0; c < errors.size(); ++c)
+  for (const auto &[c, energy, responses] : errors)
     {
-      answer["load_cases"][c]["energy_norm"] = {{"error", errors[c].energy.error},
-                                                {"relative", errors[c].energy.relative}};
-      for (const auto &[name, estimate] : errors[c].responses)
+      answer["load_cases"][c]["energy_norm"] = {{"error", energy.error},
+                                                {"relative", energy.relative}};
+      for (const auto &[name, estimate] : responses)
         answer["errors"][prefix(scene, c) + name] = estimate.error();
     }
   const auto combined          = problem->combined_objective(states);

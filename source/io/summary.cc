@@ -121,6 +121,8 @@ Json main_values(const Summary::State &state)
                           "max_displacement", "yield_utilization", "pressure_over_shear_yield"})
     if (!state.at(key).is_null())
       values[key] = state.at(key);
+  if (const auto &accuracy = state.at("accuracy"); !accuracy.is_null())
+    values["discretization_error"] = accuracy.at("relative");
   values["worst_certificate"] = worst;
   values["responses"]         = state.at("responses");
   return values;

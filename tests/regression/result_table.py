@@ -120,6 +120,27 @@ def check_load_cases(runner):
         for line, case in zip(lines, summary["load_cases"])), str(lines))
 
 
+def check_estimated_case(runner):
+    """The error in the energy norm is that of the load case with the largest strain energy; those of responses
+    are of all load cases."""
+    log, found, output = runner.run("energy", "load-cases-2d.prm", ["Task=state"])
+    _, every, _ = runner.run("every", "load-cases-2d.prm", ["Task=state", "Accuracy/Estimate=responses"])
+    cases = {case["name"]: case["state"] for case in found["load_cases"]}
+    largest = max(cases, key=lambda name: cases[name]["strain_energy"])
+    runner.require("one error", [name for name, state in cases.items() if state["accuracy"]] == [largest] and
+                   log.count("estimated discretization error") == 1 and
+                   f"error in load case {largest}, which has the largest strain energy" in log, log)
+    runner.require("largest error", found["state"]["largest"]["discretization_error"]
+                   == {"load_case": largest, "value": cases[largest]["accuracy"]["relative"]},
+                   str(found["state"]["largest"]))
+    fields = {name: b'Name="error"' in next((output / name).glob("solution-*.pvtu")).read_bytes() for name in cases}
+    runner.require("pictures of the error", fields == {name: name == largest for name in cases}, str(fields))
+    all_errors = {case["name"]: case["state"]["accuracy"] for case in every["load_cases"]}
+    runner.require("errors of all load cases", all(all_errors.values()) and
+                   close(all_errors[largest]["relative"], cases[largest]["accuracy"]["relative"], 1e-9),
+                   str(all_errors))
+
+
 def main(snug, scenes):
     with tempfile.TemporaryDirectory() as folder:
         runner = Runner(pathlib.Path(snug).resolve(), pathlib.Path(scenes), pathlib.Path(folder))
@@ -132,6 +153,7 @@ def main(snug, scenes):
         runner.require("wider contact", "searching again" in log and
                        8. < summary["optimization"]["objective_final"] < 8. * 1.001, log)
         check_load_cases(runner)
+        check_estimated_case(runner)
     return runner.wrong > 0
 
 

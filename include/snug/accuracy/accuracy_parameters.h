@@ -19,11 +19,13 @@ enum class Estimate
 };
 inline Names names(Estimate)
 {
-  return {{"none"},
-          {"energy",
-           "error of the displacement in the energy norm, by local problems in the cells"},
-          {"responses", "also the errors of the objective and of all responses, by one more linear "
-                        "solve for responses that are no energies"}};
+  return {
+    {"none"},
+    {"energy",
+     "error of the displacement in the energy norm, by local problems in the cells; of several "
+     "load cases that with the largest strain energy"},
+    {"responses", "also the errors of the objective and of all responses in all load cases, by "
+                  "one more linear solve for responses that are no energies"}};
 }
 
 /// Entries of `subsection Accuracy`.
