@@ -89,7 +89,7 @@ const mesh::Forest<dim> &AdaptiveMeshes<dim>::forest_with(const Refinement &refi
 template <int dim>
 typename AdaptiveMeshes<dim>::Mesh AdaptiveMeshes<dim>::make(Refinement &refinement)
 {
-  begun = context.seconds();
+  begin();
   const RunContext::Timer timer(context, "setup");
   for (unsigned int pass = 0; pass < most_passes; ++pass)
     {

@@ -129,6 +129,7 @@ private:
   void                     add_marked_despite_narrow_contact(Refinement &to);
   std::string              failure_reason();
   std::string              record_errors();
+  std::string              solve_on();
   std::string              solve_refined(Refinement &next);
   std::string              missed_targets(const std::string &advice) const;
   std::string              unbounded_at_edge();

@@ -2,6 +2,7 @@
 #define snug_app_adaptive_meshes_h
 
 #include <snug/app/refinement.h>
+#include <snug/base/run_context.h>
 #include <snug/mesh/body_mesh.h>
 
 #include <memory>
@@ -61,8 +62,11 @@ public:
     return double(unknowns(mesh)) <= the_scene.accuracy.maximum_unknowns;
   }
 
-  /// Return the time at which the last mesh was begun [s].
+  /// Return the time at which the last mesh, or another solution on it, was begun [s].
   double start_time() const { return begun; }
+
+  /// Begin another solution on the last mesh.
+  void begin() { begun = context.seconds(); }
 
 private:
   const mesh::Forest<dim> &forest_with(const Refinement &refinement);
