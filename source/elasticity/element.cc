@@ -26,12 +26,12 @@ Element<dim>::Element(const unsigned int        degree,
   // dilatation to be projected.
   SNUG_ASSERT(formulation == Formulation::standard || idealization.kind != Kind::plane_stress,
               "plane stress has no B-bar formulation");
-  // Use a multiple of the tile size of StiffnessKernel. The zeros add nothing.
-  const unsigned int n_padded = (n_nodes() + 3) / 4 * 4;
-  for (const auto &shape : gauss)
-    for (unsigned int d = 0; d < dim; ++d)
-      for (unsigned int a = 0; a < n_padded; ++a)
-        reference_gradients.push_back(a < n_nodes() ? shape.gradient[a][d] : 0.);
+  of_cells = Rule(gauss);
+  if (dim == 3 && degree == 2)
+    {
+      of_straight   = rule_of_straight_tetrahedra();
+      of_tetrahedra = rule_of_tetrahedra();
+    }
 }
 
 template <int dim>
@@ -187,8 +187,10 @@ Element<dim>::projected_stresses(const Nodes                                 &X,
 {
   Stresses result;
   // The points of a projection come first, the points that receive values follow.
-  auto               points = gauss_points(X);
-  const unsigned int first  = points.size();
+  std::vector<CellPoint<dim>> points;
+  if (is_mixed())
+    points = gauss_points(X);
+  const unsigned int first = points.size();
   points.reserve(first + shapes.size());
   for (const auto &shape : shapes)
     {

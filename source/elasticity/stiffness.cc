@@ -2,6 +2,7 @@
 #include <snug/elasticity/element.h>
 #include <snug/elasticity/pressure_space.h>
 #include <snug/elasticity/stress.h>
+#include <snug/mesh/tetrahedron.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -24,14 +25,14 @@ namespace {
  * Axisymmetric: one more direction, g_a,2 = N_a / r, the hoop strain of
  * component 0.
  */
-template <int dim, int degree, bool axisymmetric>
+template <int dim, int n_nodes, int n_points, bool axisymmetric>
 class StiffnessKernel
 {
 public:
   static constexpr int tile         = 4;
   static constexpr int n_directions = axisymmetric ? dim + 1 : dim;
-  static constexpr int n            = dealii::Utilities::pow(degree + 1, dim);
-  static constexpr int n_gauss      = n;
+  static constexpr int n            = n_nodes;
+  static constexpr int n_gauss      = n_points;
   static constexpr int n_padded     = (n + tile - 1) / tile * tile;
   static constexpr int n_rows       = n_directions * n_padded;
   static constexpr int N            = n * dim; ///< unknowns
@@ -51,9 +52,11 @@ public:
   /// Add the terms of the hoop strain to K.
   void add_hoop(double lambda, double mu, double *K) const;
 
-  /// Compute K += kappa sum_i c_i c_i' of Element.
-  void
-  add_projected(double kappa, const std::vector<mesh::LagrangePoint<dim>> &gauss, double *K) const;
+  /// Compute K += kappa sum_i c_i c_i' of an Element of the degree.
+  void add_projected(unsigned int                                 degree,
+                     double                                       kappa,
+                     const std::vector<mesh::LagrangePoint<dim>> &gauss,
+                     double                                      *K) const;
 
 private:
   double positions[dim][n_padded];
@@ -65,9 +68,9 @@ private:
   dealii::Tensor<2, dim> jacobian(const double *reference) const;
 };
 
-template <int dim, int degree, bool axisymmetric>
+template <int dim, int n_nodes, int n_points, bool axisymmetric>
 dealii::Tensor<2, dim>
-StiffnessKernel<dim, degree, axisymmetric>::jacobian(const double *reference) const
+StiffnessKernel<dim, n_nodes, n_points, axisymmetric>::jacobian(const double *reference) const
 {
   dealii::Tensor<2, dim> J;
   for (int c = 0; c < dim; ++c)
@@ -84,8 +87,8 @@ StiffnessKernel<dim, degree, axisymmetric>::jacobian(const double *reference) co
   return J;
 }
 
-template <int dim, int degree, bool axisymmetric>
-void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
+template <int dim, int n_nodes, int n_points, bool axisymmetric>
+void StiffnessKernel<dim, n_nodes, n_points, axisymmetric>::compute_gradients(
   const std::vector<dealii::Tensor<1, dim>>   &X,
   const std::vector<mesh::LagrangePoint<dim>> &gauss,
   const double                                *reference,
@@ -127,8 +130,8 @@ void StiffnessKernel<dim, degree, axisymmetric>::compute_gradients(
 }
 
 /// Compute the products H. This takes nearly all of the time: n_rows^2/2 products of n_gauss terms.
-template <int dim, int degree, bool axisymmetric>
-void StiffnessKernel<dim, degree, axisymmetric>::compute_products()
+template <int dim, int n_nodes, int n_points, bool axisymmetric>
+void StiffnessKernel<dim, n_nodes, n_points, axisymmetric>::compute_products()
 {
   // Process one tile at a time over all Gauss points: its 16 sums fit in registers.
   for (int I = 0; I < n_rows; I += tile)
@@ -146,10 +149,10 @@ void StiffnessKernel<dim, degree, axisymmetric>::compute_products()
       }
 }
 
-template <int dim, int degree, bool axisymmetric>
-void StiffnessKernel<dim, degree, axisymmetric>::combine(const double lambda,
-                                                         const double mu,
-                                                         double      *K) const
+template <int dim, int n_nodes, int n_points, bool axisymmetric>
+void StiffnessKernel<dim, n_nodes, n_points, axisymmetric>::combine(const double lambda,
+                                                                    const double mu,
+                                                                    double      *K) const
 {
   const auto set = [K](const int row, const int column, double value) {
     // Both entries receive the same number, so K is symmetric to the last bit.
@@ -177,10 +180,10 @@ void StiffnessKernel<dim, degree, axisymmetric>::combine(const double lambda,
       }
 }
 
-template <int dim, int degree, bool axisymmetric>
-void StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
-                                                          const double mu,
-                                                          double      *K) const
+template <int dim, int n_nodes, int n_points, bool axisymmetric>
+void StiffnessKernel<dim, n_nodes, n_points, axisymmetric>::add_hoop(const double lambda,
+                                                                     const double mu,
+                                                                     double      *K) const
 {
   constexpr int hoop = n_rows - n_padded; // its first row in H
   const auto    add  = [K](const int row, const int column, double value) {
@@ -201,8 +204,9 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_hoop(const double lambda,
       }
 }
 
-template <int dim, int degree, bool axisymmetric>
-void StiffnessKernel<dim, degree, axisymmetric>::add_projected(
+template <int dim, int n_nodes, int n_points, bool axisymmetric>
+void StiffnessKernel<dim, n_nodes, n_points, axisymmetric>::add_projected(
+  const unsigned int                           degree,
   const double                                 kappa,
   const std::vector<mesh::LagrangePoint<dim>> &gauss,
   double                                      *K) const
@@ -232,18 +236,93 @@ void StiffnessKernel<dim, degree, axisymmetric>::add_projected(
           K[row * N + column] += c[row] * c[column];
     }
 }
+
+/// Return whether the middles of all edges lie in the middle up to round-off.
+bool is_straight(const std::vector<dealii::Tensor<1, 3>> &X)
+{
+  const double round_off = 1e-13;
+  for (unsigned int a = 0; a < 4; ++a)
+    for (unsigned int b = 0; b < a; ++b)
+      if ((X[mesh::Tetrahedron::middle(a, b)] - 0.5 * (X[a] + X[b])).norm() >
+          round_off * (X[a] - X[b]).norm())
+        return false;
+  return true;
+}
 } // namespace
 
 template <int dim>
-template <int degree, bool axisymmetric>
-void Element<dim>::compute_stiffness(const Nodes         &X,
+Element<dim>::Rule::Rule(std::vector<mesh::LagrangePoint<dim>> of_points)
+  : points(std::move(of_points))
+{
+  // Use a multiple of the tile size of StiffnessKernel. The zeros add nothing.
+  const std::size_t n = points.front().gradient.size(), n_padded = (n + 3) / 4 * 4;
+  for (const auto &shape : points)
+    for (unsigned int d = 0; d < dim; ++d)
+      for (std::size_t a = 0; a < n_padded; ++a)
+        gradients.push_back(a < n ? shape.gradient[a][d] : 0.);
+}
+
+/// The coordinates are the barycentric coordinates of corners 1, 2 and 3. The rule is exact for
+/// degree 2, that of the products of gradients.
+template <int dim>
+typename Element<dim>::Rule Element<dim>::rule_of_straight_tetrahedra()
+{
+  std::vector<mesh::LagrangePoint<dim>> points(4);
+  for (unsigned int q = 0; q < 4; ++q)
+    {
+      double lambda[4];
+      for (unsigned int a = 0; a < 4; ++a)
+        lambda[a] = (5. + (a == q ? 3. : -1.) * std::sqrt(5.)) / 20.;
+      const auto add = [&](const unsigned int node, const unsigned int a, const double slope) {
+        for (unsigned int d = 0; d < dim; ++d)
+          points[q].gradient[node][d] += slope * ((a == d + 1 ? 1. : 0.) - (a == 0 ? 1. : 0.));
+      };
+      points[q].weight = 1. / 24.;
+      points[q].gradient.resize(10);
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          add(a, a, 4. * lambda[a] - 1.);
+          for (unsigned int b = 0; b < 4; ++b)
+            if (a != b)
+              add(mesh::Tetrahedron::middle(a, b), a, 4. * lambda[b]);
+        }
+    }
+  return Rule(points);
+}
+
+template <int dim>
+typename Element<dim>::Rule Element<dim>::rule_of_tetrahedra()
+{
+  std::vector<mesh::LagrangePoint<dim>> points;
+  for (unsigned int corner = 0; corner < 4; ++corner)
+    for (const auto &at : mesh::lagrange_gauss_points<dim>(2))
+      {
+        const auto &T = mesh::tetrahedron_functions(corner);
+        points.emplace_back();
+        points.back().weight = at.weight;
+        points.back().value.resize(10);
+        points.back().gradient.resize(10);
+        for (unsigned int i = 0; i < at.gradient.size(); ++i)
+          for (unsigned int a = 0; a < 10; ++a)
+            {
+              points.back().value[a] += T[i * 10 + a] * at.value[i];
+              points.back().gradient[a] += T[i * 10 + a] * at.gradient[i];
+            }
+      }
+  return Rule(points);
+}
+
+template <int dim>
+template <int n_nodes, int n_points, bool axisymmetric>
+void Element<dim>::compute_stiffness(const Rule          &rule,
+                                     const Nodes         &X,
                                      const Material      &material,
                                      std::vector<double> &K) const
 {
   // The kernel is on the stack, with sizes known to the compiler: about 0.1 MB for 27 nodes in 3D.
-  using Kernel = StiffnessKernel<dim, degree, axisymmetric>;
+  using Kernel = StiffnessKernel<dim, n_nodes, n_points, axisymmetric>;
   SNUG_ASSERT_EQUAL(X.size(), Kernel::n);
-  SNUG_ASSERT_EQUAL(reference_gradients.size(), Kernel::n_gauss * dim * Kernel::n_padded);
+  SNUG_ASSERT_EQUAL(rule.gradients.size(), Kernel::n_gauss * dim * Kernel::n_padded);
   K.resize(Kernel::N * Kernel::N);
   const double mu = material.lame_mu();
   const double lambda =
@@ -251,29 +330,50 @@ void Element<dim>::compute_stiffness(const Nodes         &X,
     formulation == Formulation::B_bar ? -2. / 3. * mu : lame_lambda(idealization, material);
 
   Kernel kernel;
-  kernel.compute_gradients(X, gauss, reference_gradients.data(), idealization);
+  kernel.compute_gradients(X, rule.points, rule.gradients.data(), idealization);
   kernel.compute_products();
   kernel.combine(lambda, mu, K.data());
   if (axisymmetric)
     kernel.add_hoop(lambda, mu, K.data());
   if (formulation == Formulation::B_bar)
-    kernel.add_projected(material.bulk_modulus(), gauss, K.data());
+    kernel.add_projected(degree, material.bulk_modulus(), rule.points, K.data());
 }
 
 template <int dim>
 void Element<dim>::stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const
 {
+  constexpr int n_linear = 1 << dim, n_quadratic = dim == 2 ? 9 : 27;
   if constexpr (dim == 2) // solids are never axisymmetric
     if (idealization.is_axisymmetric())
       {
-        degree == 1 ? compute_stiffness<1, true>(X, material, K)
-                    : compute_stiffness<2, true>(X, material, K);
+        degree == 1 ? compute_stiffness<n_linear, n_linear, true>(of_cells, X, material, K)
+                    : compute_stiffness<n_quadratic, n_quadratic, true>(of_cells, X, material, K);
         return;
       }
-  degree == 1 ? compute_stiffness<1, false>(X, material, K)
-              : compute_stiffness<2, false>(X, material, K);
+  degree == 1 ? compute_stiffness<n_linear, n_linear, false>(of_cells, X, material, K)
+              : compute_stiffness<n_quadratic, n_quadratic, false>(of_cells, X, material, K);
+}
+
+template <int dim>
+void Element<dim>::stiffness_of_tetrahedron(const Nodes         &X,
+                                            const Material      &material,
+                                            std::vector<double> &K) const
+{
+  SNUG_ASSERT(formulation == Formulation::standard, "cells of tetrahedra have projections");
+  if constexpr (dim == 3)
+    is_straight(X) ? compute_stiffness<10, 4, false>(of_straight, X, material, K)
+                   : compute_stiffness<10, 108, false>(of_tetrahedra, X, material, K);
 }
 
 template void Element<2>::stiffness(const Nodes &, const Material &, std::vector<double> &) const;
 template void Element<3>::stiffness(const Nodes &, const Material &, std::vector<double> &) const;
+#define SNUG_INSTANTIATE(dim)                                                           \
+  template Element<dim>::Rule::Rule(std::vector<mesh::LagrangePoint<dim>>);             \
+  template Element<dim>::Rule Element<dim>::rule_of_straight_tetrahedra();              \
+  template Element<dim>::Rule Element<dim>::rule_of_tetrahedra();                       \
+  template void Element<dim>::stiffness_of_tetrahedron(const Nodes &, const Material &, \
+                                                       std::vector<double> &) const;
+SNUG_INSTANTIATE(2)
+SNUG_INSTANTIATE(3)
+#undef SNUG_INSTANTIATE
 } // namespace snug::elasticity

@@ -98,6 +98,8 @@ void BodyMesh<dim>::number_nodes(const Source &source)
 
 /// Positions are evaluated from the geometry at all nodes, including nodes of ghost cells, so that
 /// ranks send no positions. If cells differ by round-off, the first cell with the node decides.
+/// Hanging nodes get the interpolation of the masters, because the displacement at hanging nodes is
+/// interpolated as well. Otherwise rigid motions would cause strains on curved faces.
 template <int dim>
 void BodyMesh<dim>::collect_nodes(const Source &source)
 {
@@ -113,20 +115,25 @@ void BodyMesh<dim>::collect_nodes(const Source &source)
         cell->get_dof_indices(indices);
         for (unsigned int i = 0; i < indices.size(); ++i)
           {
-            const unsigned int node = local_node(indices[i]);
-            // Bodies share no nodes, so each node belongs to one body.
+            const unsigned int node = local_node(indices[i]); // of one body
             if (done[node])
               continue;
+            done[node]      = true;
+            node_body[node] = body;
+            if (is_hanging(node))
+              continue;
             const auto point = places.point(source.id(cell->id()), source.fe.unit_support_point(i));
-            done[node]       = true;
-            node_body[node]  = body;
             logical[node]    = geometry(body).logical(point);
             reference[node]  = geometry(body).position(point);
           }
       }
+  interpolate_hanging(reference);
+  for (const auto &[node, masters] : hanging_nodes)
+    for (const auto &[master, weight] : masters)
+      logical[node] += weight * logical[master];
 }
 
-/// The function close() resolves masters of masters. Collective.
+/// close() resolves masters of masters. Collective.
 template <int dim>
 void BodyMesh<dim>::collect_hanging(const Source &source)
 {
@@ -143,7 +150,7 @@ void BodyMesh<dim>::collect_hanging(const Source &source)
       const unsigned int global = relevant.nth_index_in_set(node);
       if (!constraints.is_constrained(global))
         continue;
-      // Only the owner counts a node, so that the sum over ranks counts each node once.
+      // Only the owner counts a node.
       owned_hanging += source.nodes.locally_owned_dofs().is_element(global);
       // The weights are the values of the shape functions of the coarse face at the node.
       Hanging entry{node, {}};
@@ -305,16 +312,17 @@ BodyMesh<dim>::BodyMesh(const Forest<dim>                      &forest,
   const Source source(forest, degree, cells_per_subdomain(dim, fe_degree, meaning), tearing);
   n_cells = source.triangulation().n_global_active_cells();
   number_nodes(source);
-  // throw_collectively() is needed because a formula may fail at a position that only one rank has.
-  throw_collectively(comm, [&]() { collect_nodes(source); });
   collect_hanging(source);
+  // A formula may fail at a position that only one rank has.
+  throw_collectively(comm, [&]() { collect_nodes(source); });
   collect_cells(source);
   if (source.is_distributed)
     collect_interior_faces(source);
-  // On curved faces, positions of hanging nodes from the geometry differ from the interpolation of
-  // the masters. The displacement at hanging nodes is interpolated, so the position must be
-  // interpolated as well. Otherwise rigid motions would cause strains.
-  interpolate_hanging(reference);
+  whole_tetrahedra = find_tetrahedra(*this);
+  tetrahedron_of_cell.assign(mesh_cells.size(), static_cast<unsigned int>(-1));
+  for (unsigned int t = 0; t < whole_tetrahedra.size(); ++t)
+    for (const unsigned int cell : whole_tetrahedra[t].cells)
+      tetrahedron_of_cell[cell] = t;
   throw_collectively(comm, [&]() { collect_samples(forest.bodies(), source); });
   if (idealization.is_axisymmetric())
     snap_to_axis();

@@ -4,17 +4,22 @@
 #include <map>
 
 namespace snug::mesh {
+namespace {
+/// Return the position of a node in @p among.
+unsigned int slot_of(const unsigned int node, const std::vector<unsigned int> &among)
+{
+  return among.empty() ? node : std::lower_bound(among.begin(), among.end(), node) - among.begin();
+}
+} // namespace
+
 template <int dim>
 NodeReach<dim>::NodeReach(const BodyMesh<dim>             &mesh,
                           const std::vector<unsigned int> &nodes,
                           const std::vector<unsigned int> &among)
   : n_nodes(nodes.size())
 {
-  const auto slot = [&](unsigned int node) -> unsigned int {
-    return among.empty() ? node
-                         : std::lower_bound(among.begin(), among.end(), node) - among.begin();
-  };
-  // Most cells have no hanging node. T is empty for these cells, which means the identity.
+  const auto slot = [&](unsigned int node) { return slot_of(node, among); };
+  // Most cells have no hanging node. T is null for these cells, which means the identity.
   bool hanging = false;
   for (const unsigned int node : nodes)
     hanging = hanging || mesh.is_hanging(node);
@@ -40,9 +45,31 @@ NodeReach<dim>::NodeReach(const BodyMesh<dim>             &mesh,
     }
   std::sort(reached.begin(), reached.end());
   reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+  Weights T;
   for (const auto &row : rows)
     for (const unsigned int s : reached)
       T.push_back(row.count(s) ? row.at(s) : 0.);
+  weights = std::make_shared<const Weights>(std::move(T));
+}
+
+template <int dim>
+NodeReach<dim> NodeReach<dim>::of_cell(const BodyMesh<dim>             &mesh,
+                                       const unsigned int               cell,
+                                       const std::vector<unsigned int> &among)
+{
+  const Tetrahedron *tetrahedron = mesh.tetrahedron(cell);
+  if (tetrahedron == nullptr)
+    return {mesh, mesh.cells()[cell].nodes, among};
+  const auto &cells = tetrahedron->cells;
+  NodeReach   result;
+  result.n_nodes = mesh.cells()[cell].nodes.size();
+  for (const unsigned int node : tetrahedron->nodes)
+    result.reached.push_back(slot_of(node, among));
+  // The functions are static, so the pointer does not own them.
+  result.weights = {std::shared_ptr<const Weights>(),
+                    &tetrahedron_functions(std::find(cells.begin(), cells.end(), cell) -
+                                           cells.begin())};
+  return result;
 }
 
 template <int dim>
@@ -52,11 +79,11 @@ typename NodeReach<dim>::Nodes NodeReach<dim>::values(const double *u) const
   const unsigned int m = reached.size();
   for (unsigned int a = 0; a < n_nodes; ++a)
     for (unsigned int c = 0; c < dim; ++c)
-      if (T.empty())
+      if (!weights)
         result[a][c] = u[dim * reached[a] + c];
       else
         for (unsigned int s = 0; s < m; ++s)
-          result[a][c] += T[a * m + s] * u[dim * reached[s] + c];
+          result[a][c] += (*weights)[a * m + s] * u[dim * reached[s] + c];
   return result;
 }
 
@@ -68,11 +95,11 @@ void NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
   const unsigned int m = reached.size();
   for (unsigned int a = 0; a < n_nodes; ++a)
     for (unsigned int c = 0; c < dim; ++c)
-      if (T.empty())
+      if (!weights)
         u[dim * reached[a] + c] += factor * r[a][c];
       else
         for (unsigned int s = 0; s < m; ++s)
-          u[dim * reached[s] + c] += factor * T[a * m + s] * r[a][c];
+          u[dim * reached[s] + c] += factor * (*weights)[a * m + s] * r[a][c];
 }
 
 /// The two products K T and T'(K T) run over the nonzeros of T. They have at most n^2 m and n m^2
@@ -80,8 +107,9 @@ void NodeReach<dim>::add(double factor, const Nodes &r, double *u) const
 template <int dim>
 void NodeReach<dim>::condense(std::vector<double> &K) const
 {
-  if (T.empty())
+  if (!weights)
     return;
+  const Weights      &T = *weights;
   const unsigned int  n = n_nodes, m = reached.size();
   std::vector<double> KT(std::size_t(n) * dim * m * dim, 0.);
   for (unsigned int row = 0; row < n * dim; ++row)

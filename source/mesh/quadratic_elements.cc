@@ -16,9 +16,7 @@ namespace {
 /// 4 a + b per factor, where a <= b are the corners of the edge.
 using NodeKey = unsigned int;
 
-/// Nodes of the quadratic element with the values of their shape functions at a point, without
-/// zeros.
-using Weights = std::vector<std::pair<NodeKey, double>>;
+using Weights = QuadraticWeights;
 
 /// Return the corner of each factor for a corner of an element.
 std::vector<unsigned int>
@@ -100,21 +98,6 @@ Weights element_weights(const geometry::ElementPart<dim> &part, const dealii::Po
   return result;
 }
 
-/// The weights at the 3^dim nodes of a cell, in tensor-product order.
-template <int dim>
-std::vector<Weights> cell_weights(const geometry::ElementPart<dim> &part)
-{
-  std::vector<Weights> result;
-  for (unsigned int node = 0; node < dealii::Utilities::fixed_power<dim>(3u); ++node)
-    {
-      dealii::Point<dim> u;
-      for (unsigned int d = 0, rest = node; d < dim; ++d, rest /= 3)
-        u[d] = 0.5 * (rest % 3);
-      result.push_back(element_weights(part, u));
-    }
-  return result;
-}
-
 /// Return the vertex in the middle of the edge, the face or the cell inside of which a node lies.
 /// The edge, the face or the whole element continues in other cells of the element.
 template <int dim>
@@ -126,6 +109,20 @@ unsigned int middle_vertex(const unsigned int node)
   return vertex;
 }
 } // namespace
+
+template <int dim>
+std::vector<QuadraticWeights> quadratic_weights(const geometry::ElementPart<dim> &part)
+{
+  std::vector<Weights> result;
+  for (unsigned int node = 0; node < dealii::Utilities::fixed_power<dim>(3u); ++node)
+    {
+      dealii::Point<dim> u;
+      for (unsigned int d = 0, rest = node; d < dim; ++d, rest /= 3)
+        u[d] = 0.5 * (rest % 3);
+      result.push_back(element_weights(part, u));
+    }
+  return result;
+}
 
 template <int dim>
 QuadraticElements<dim>::QuadraticElements(const Forest<dim> &forest)
@@ -235,7 +232,7 @@ void QuadraticElements<dim>::constrain(const dealii::DoFHandler<dim>     &nodes,
             continue;
           auto &weights = of_corner[{part.n_corners, part.corner}];
           if (weights.empty())
-            weights = cell_weights(part);
+            weights = quadratic_weights(part);
           cell->get_dof_indices(indices);
           for (unsigned int node = 0; node < order.size(); ++node)
             action(coarse, node, weights[node], indices[order[node]]);
@@ -262,6 +259,8 @@ void QuadraticElements<dim>::constrain(const dealii::DoFHandler<dim>     &nodes,
   });
 }
 
+template std::vector<QuadraticWeights> quadratic_weights(const geometry::ElementPart<2> &);
+template std::vector<QuadraticWeights> quadratic_weights(const geometry::ElementPart<3> &);
 template class QuadraticElements<2>;
 template class QuadraticElements<3>;
 } // namespace snug::mesh

@@ -1,4 +1,5 @@
 #include <snug/base/gather.h>
+#include <snug/mesh/node_reach.h>
 #include <snug/mesh/tearing.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,13 +15,10 @@ std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
 {
   std::vector<unsigned int> nodes;
   for (const unsigned int cell : cells)
-    for (const unsigned int node : mesh.cells()[cell].nodes)
-      // A hanging node has no unknown of its own.
-      if (mesh.is_hanging(node))
-        for (const auto &master : mesh.hanging()[mesh.hanging_index(node)].masters)
-          nodes.push_back(master.first);
-      else
-        nodes.push_back(node);
+    {
+      const NodeReach<dim> reach = NodeReach<dim>::of_cell(mesh, cell, {});
+      nodes.insert(nodes.end(), reach.slots().begin(), reach.slots().end());
+    }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

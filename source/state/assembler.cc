@@ -31,7 +31,7 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
   , concentrated(concentrated)
 {
   for (const unsigned int cell : subdomain.cells)
-    cell_reach.emplace_back(mesh, mesh.cells()[cell].nodes, subdomain.nodes);
+    cell_reach.push_back(mesh::NodeReach<dim>::of_cell(mesh, cell, subdomain.nodes));
   std::vector<unsigned int> cells = subdomain.cells;
   std::sort(cells.begin(), cells.end());
   for (unsigned int f = 0; f < mesh.boundary_faces().size(); ++f)
@@ -48,6 +48,7 @@ Assembler<dim>::Assembler(const mesh::BodyMesh<dim>       &mesh,
           face_reach.emplace_back(mesh, face.nodes, subdomain.nodes);
         }
     }
+  collect_pieces();
   build_pattern();
 }
 
@@ -57,21 +58,26 @@ template <int dim>
 void Assembler<dim>::build_pattern()
 {
   node_neighbours.resize(subdomain.nodes.size());
-  for (const mesh::NodeReach<dim> &cell : cell_reach)
-    for (const unsigned int a : cell.slots())
-      node_neighbours[a].insert(node_neighbours[a].end(), cell.slots().begin(), cell.slots().end());
+  for (const Piece &piece : pieces)
+    {
+      const auto &slots = cell_reach[piece.cell].slots();
+      for (const unsigned int a : slots)
+        node_neighbours[a].insert(node_neighbours[a].end(), slots.begin(), slots.end());
+    }
   for (auto &neighbours : node_neighbours)
     {
       std::sort(neighbours.begin(), neighbours.end());
       neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+      neighbours.shrink_to_fit();
     }
-  for (const mesh::NodeReach<dim> &cell : cell_reach)
+  for (Piece &piece : pieces)
     {
       // Look the places up once, because K is assembled for each design with the same pattern.
-      places.emplace_back();
-      for (const unsigned int a : cell.slots())
-        for (const unsigned int b : cell.slots())
-          places.back().push_back(
+      const auto &slots = cell_reach[piece.cell].slots();
+      piece.places.reserve(slots.size() * slots.size());
+      for (const unsigned int a : slots)
+        for (const unsigned int b : slots)
+          piece.places.push_back(
             std::lower_bound(node_neighbours[a].begin(), node_neighbours[a].end(), b) -
             node_neighbours[a].begin());
     }
@@ -101,20 +107,18 @@ void Assembler<dim>::stiffness(const Field &positions, feti::CsrMatrix &K) const
 {
   // Compute the values only, because K has the pattern of sparsity().
   std::fill(K.values.begin(), K.values.end(), 0.);
-  std::vector<double> cell_matrix;
-  for (unsigned int i = 0; i < cell_reach.size(); ++i)
+  std::vector<double> matrix;
+  for (const Piece &piece : pieces)
     {
-      const mesh::NodeReach<dim> &cell = cell_reach[i];
-      the_element.stiffness(cell_field(i, positions), material(i), cell_matrix);
-      const unsigned int m = cell.slots().size();
-      // condense() also adapts the size, because m slots may be more than the nodes of the cell.
-      cell.condense(cell_matrix);
+      const auto        &slots = cell_reach[piece.cell].slots();
+      const unsigned int m     = slots.size();
+      compute_stiffness(piece, positions, matrix);
       for (unsigned int a = 0; a < m; ++a)
         for (unsigned int c = 0; c < dim; ++c)
           {
-            double             *row   = K.values.data() + K.row_start()[dim * cell.slots()[a] + c];
-            const double       *from  = cell_matrix.data() + std::size_t(a * dim + c) * m * dim;
-            const unsigned int *place = places[i].data() + a * m;
+            double             *row   = K.values.data() + K.row_start()[dim * slots[a] + c];
+            const double       *from  = matrix.data() + std::size_t(a * dim + c) * m * dim;
+            const unsigned int *place = piece.places.data() + a * m;
             for (unsigned int b = 0; b < m; ++b)
               for (unsigned int d = 0; d < dim; ++d)
                 row[dim * place[b] + d] += from[b * dim + d];
@@ -340,24 +344,6 @@ bool Assembler<dim>::has_resultants() const
           return true;
       }
   return false;
-}
-
-/// Check only whether the load case has a body force, because formulas are not evaluated.
-template <int dim>
-bool Assembler<dim>::has_body_force(unsigned int load_case) const
-{
-  return loads(load_case).has_force_per_volume();
-}
-
-template <int dim>
-typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
-                                                          unsigned int load_case) const
-{
-  // The formula depends on the reference position, so the value moves with the material point.
-  auto b = the_element.quadrature_points(cell_field(i, mesh.reference_positions()));
-  for (auto &at : b)
-    at = loads(load_case).force_per_volume(material(i), at);
-  return b;
 }
 
 template <int dim>

@@ -10,6 +10,24 @@ elasticity::ThermalStrain<dim> Assembler<dim>::thermal_strain(unsigned int i,
                                     cell_field(i, mesh.reference_positions()));
 }
 
+/// Check only whether the load case has a body force, because formulas are not evaluated.
+template <int dim>
+bool Assembler<dim>::has_body_force(unsigned int load_case) const
+{
+  return loads(load_case).has_force_per_volume();
+}
+
+template <int dim>
+typename Assembler<dim>::Nodes Assembler<dim>::body_force(unsigned int i,
+                                                          unsigned int load_case) const
+{
+  // The formula depends on the reference position, so the value moves with the material point.
+  auto b = the_element.quadrature_points(cell_field(i, mesh.reference_positions()));
+  for (auto &at : b)
+    at = loads(load_case).force_per_volume(material(i), at);
+  return b;
+}
+
 template <int dim>
 bool Assembler<dim>::has_cell_loads(unsigned int load_case) const
 {

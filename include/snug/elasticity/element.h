@@ -72,6 +72,26 @@ public:
   /// Compute K (n*dim x n*dim, row by row), exactly symmetric [force / length].
   void stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const;
 
+  /**
+   * Compute K (30 x 30) of a tetrahedron with the ten nodes @p X of mesh::Tetrahedron, the sum of
+   * T'K T over its four cells. Four points are exact if the edges are straight; otherwise the
+   * points are those of the cells, such that all terms of curved elements use the same rule. Only
+   * for dim = 3, degree = 2 and the standard formulation.
+   */
+  void
+  stiffness_of_tetrahedron(const Nodes &X, const Material &material, std::vector<double> &K) const;
+
+  /// Return the Gauss points of a cell, or of the four cells of a tetrahedron with the functions of
+  /// its ten nodes.
+  const std::vector<mesh::LagrangePoint<dim>> &points() const { return gauss; }
+  const std::vector<mesh::LagrangePoint<dim>> &points_of_tetrahedron() const
+  {
+    return of_tetrahedra.points;
+  }
+
+  /// Return whether the formulation acts in each cell.
+  bool is_mixed() const { return formulation != Formulation::standard; }
+
   /// Compute r = K(X) u.
   void internal_force(const Nodes &X, const Material &material, const Nodes &u, Nodes &r) const;
 
@@ -148,7 +168,8 @@ public:
   void add_volume_gradient(const Nodes &X, double factor, Nodes &gradient) const;
 
   /// Return the Cauchy stress at points of the reference cube [0,1]^dim. @p shapes are the
-  /// functions of degree p at the points.
+  /// functions of degree p at the points. In the standard formulation, X, u and the functions may
+  /// also be those of a tetrahedron.
   Stresses stresses(const Nodes                                 &X,
                     const Material                              &material,
                     const Nodes                                 &u,
@@ -226,17 +247,35 @@ private:
                                        const Material                    &material,
                                        const Nodes                       &u) const;
 
-  template <int degree, bool axisymmetric>
-  void compute_stiffness(const Nodes &X, const Material &material, std::vector<double> &K) const;
+  /// Points with the functions of n nodes.
+  struct Rule
+  {
+    std::vector<mesh::LagrangePoint<dim>> points;
+    /// dN_a / d xi_d at the points, [point][d][a], with a padded with zeros to a multiple of 4.
+    /// stiffness() vectorizes over this layout.
+    std::vector<double> gradients;
+
+    Rule() = default;
+    explicit Rule(std::vector<mesh::LagrangePoint<dim>> points);
+  };
+
+  static Rule rule_of_straight_tetrahedra();
+  /// Return the Gauss points of the four cells.
+  static Rule rule_of_tetrahedra();
+
+  template <int n_nodes, int n_points, bool axisymmetric>
+  void compute_stiffness(const Rule          &rule,
+                         const Nodes         &X,
+                         const Material      &material,
+                         std::vector<double> &K) const;
 
   unsigned int                          degree;
   mesh::Idealization                    idealization;
   Formulation                           formulation;
   std::vector<mesh::LagrangePoint<dim>> gauss;
   std::vector<mesh::LagrangePoint<dim>> nodes;
-  /// dN_a / d xi_d at the Gauss points, [point][d][a], with a padded with zeros to a multiple of
-  /// 4. stiffness() vectorizes over this layout.
-  std::vector<double> reference_gradients;
+  Rule                                  of_cells;
+  Rule                                  of_straight, of_tetrahedra; ///< in 3D, degree 2
 };
 } // namespace snug::elasticity
 

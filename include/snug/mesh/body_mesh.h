@@ -5,6 +5,7 @@
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/interior_faces.h>
 #include <snug/mesh/partition.h>
+#include <snug/mesh/tetrahedron.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/tensor.h>
@@ -104,6 +105,14 @@ public:
   const std::vector<Face>    &boundary_faces() const { return mesh_faces; }
   const std::vector<Hanging> &hanging() const { return hanging_nodes; }
 
+  const std::vector<Tetrahedron> &tetrahedra() const { return whole_tetrahedra; }
+  /// Return the tetrahedron of a cell of cells(), or null.
+  const Tetrahedron *tetrahedron(unsigned int cell) const
+  {
+    const unsigned int t = tetrahedron_of_cell[cell];
+    return t < whole_tetrahedra.size() ? &whole_tetrahedra[t] : nullptr;
+  }
+
   unsigned int n_local_nodes() const { return relevant.n_elements(); }
   /// Return the number of local nodes and samples.
   unsigned int n_points() const { return reference.size(); }
@@ -183,6 +192,8 @@ private:
   std::vector<dealii::CellId>     cell_ids;
   std::vector<Face>               mesh_faces;
   std::vector<Hanging>            hanging_nodes;
+  std::vector<Tetrahedron>        whole_tetrahedra;
+  std::vector<unsigned int>       tetrahedron_of_cell; ///< index, or the maximum integer
   CellPairs                       neighbours;
   /// cells of other ranks that share a face with a cell of this rank
   std::vector<Cell>              other_cells;

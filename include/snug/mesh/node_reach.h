@@ -3,6 +3,8 @@
 
 #include <snug/mesh/body_mesh.h>
 
+#include <memory>
+
 namespace snug::mesh {
 /**
  * This class maps the n nodes of a cell or face to slots, which are positions in a vector with
@@ -21,8 +23,12 @@ public:
             const std::vector<unsigned int> &nodes,
             const std::vector<unsigned int> &among = {});
 
-  /// Return the slots with nonzero weights: in the order of the nodes if no node hangs, otherwise
-  /// ascending.
+  /// Find the slots of a cell of the mesh. Those of a tetrahedron are the slots of its ten nodes.
+  static NodeReach
+  of_cell(const BodyMesh<dim> &mesh, unsigned int cell, const std::vector<unsigned int> &among);
+
+  /// Return the slots with nonzero weights: in the order of the nodes if no node hangs, and in the
+  /// order of the nodes of a tetrahedron; otherwise ascending.
   const std::vector<unsigned int> &slots() const { return reached; }
 
   /// Return the values at the nodes, T u.
@@ -35,9 +41,14 @@ public:
   void condense(std::vector<double> &K) const;
 
 private:
+  using Weights = std::vector<double>;
+
   unsigned int              n_nodes;
   std::vector<unsigned int> reached;
-  std::vector<double>       T; ///< n_nodes x slots, row by row; empty for the identity
+  /// T, n_nodes x slots, row by row; null for the identity. Tetrahedra share it.
+  std::shared_ptr<const Weights> weights;
+
+  NodeReach() = default;
 };
 } // namespace snug::mesh
 

@@ -13,6 +13,15 @@
 #include <functional>
 
 namespace snug::mesh {
+/// Nodes of the quadratic element with the values of their shape functions at a point, without
+/// zeros. The key of a node has one digit 4 a + b in base 16 per factor of the element, where a <=
+/// b are the corners of an edge of the factor, and a = b a corner.
+using QuadraticWeights = std::vector<std::pair<unsigned int, double>>;
+
+/// Return the values at the 3^dim nodes of a cell, in tensor-product order.
+template <int dim>
+std::vector<QuadraticWeights> quadratic_weights(const geometry::ElementPart<dim> &part);
+
 /**
  * This class finds the elements of mesh files that were split into cells, and constrains the nodes
  * of degree 2 of their cells such that the functions on the cells are the quadratic functions of

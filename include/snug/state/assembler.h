@@ -11,8 +11,9 @@
 namespace snug::state {
 /**
  * This class assembles one subdomain. The subdomain has dim unknowns per node of Subdomain::nodes.
- * Cells with hanging nodes act on the masters, K_e -> T' K_e T. The subdomain of a reference point
- * has its motion as unknowns (ReferencePoints), K = 0, and R = I.
+ * Cells with hanging nodes act on the masters, K_e -> T' K_e T; the four cells of a tetrahedron do
+ * so together, unless the formulation acts in each cell. The subdomain of a reference point has its
+ * motion as unknowns (ReferencePoints), K = 0, and R = I.
  */
 template <int dim>
 class Assembler
@@ -70,6 +71,27 @@ public:
   const std::vector<unsigned int> &cells() const { return subdomain.cells; }
   const std::vector<unsigned int> &loaded_faces() const { return faces; }
 
+  /// @name Pieces of the cells, which are tetrahedra or single cells, for integrals over all of
+  /// them
+  /// @{
+  unsigned int n_pieces() const { return pieces.size(); }
+  /// Return the first cell of piece i, index into cells(). The cells of a piece have one material.
+  unsigned int cell_of_piece(unsigned int i) const { return pieces[i].cell; }
+  /// Return the Gauss points of all cells of piece i, with the functions of its nodes.
+  const std::vector<mesh::LagrangePoint<dim>> &piece_points(unsigned int i) const
+  {
+    return pieces[i].tetrahedron ? the_element.points_of_tetrahedron() : the_element.points();
+  }
+  /// Return the values of a nodal field, or of the subdomain vector u, at the nodes of piece i.
+  Nodes piece_field(unsigned int i, const Field &field) const
+  {
+    return piece_field(pieces[i], field);
+  }
+  Nodes piece_values(unsigned int i, const double *u) const;
+  /// Return the thermal strain at the points of piece i; empty if there is none.
+  elasticity::ThermalStrain<dim> piece_strain(unsigned int i, unsigned int load_case) const;
+  /// @}
+
   /// Return the values of a nodal field at the nodes of cell i of cells().
   Nodes cell_field(unsigned int i, const Field &field) const;
   /// Return the values of the subdomain vector u at the nodes of cell i.
@@ -116,9 +138,21 @@ public:
   const elasticity::Element<dim> &element() const { return the_element; }
 
 private:
+  /// A part of the cells whose stiffness is computed at once: a cell or a tetrahedron.
+  struct Piece
+  {
+    unsigned int              cell; ///< the first cell, index into cells()
+    const mesh::Tetrahedron  *tetrahedron;
+    std::vector<unsigned int> places; ///< slot a and slot b: place of b among the neighbours of a
+  };
+
   std::vector<double> point_load(unsigned int load_case) const;
 
-  void build_pattern();
+  void  collect_pieces();
+  Nodes piece_field(const Piece &piece, const Field &field) const;
+  void  build_pattern();
+  void
+  compute_stiffness(const Piece &piece, const Field &positions, std::vector<double> &matrix) const;
   bool has_body_force(unsigned int load_case) const;
   /// Return the body force at the Gauss points of cell i, including gravity.
   Nodes                 body_force(unsigned int i, unsigned int load_case) const;
@@ -136,9 +170,8 @@ private:
   const ConcentratedLoads<dim>          &concentrated;
   std::vector<unsigned int>              faces; ///< indices into boundary_faces()
   std::vector<mesh::NodeReach<dim>>      cell_reach, face_reach;
+  std::vector<Piece>                     pieces;
   std::vector<std::vector<unsigned int>> node_neighbours;
-  /// per cell, slot a and slot b: place of b among the neighbours of a
-  std::vector<std::vector<unsigned int>> places;
 };
 } // namespace snug::state
 

@@ -1,3 +1,5 @@
+#include <snug/mesh/tetrahedron.h>
+
 #include "cells.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -229,4 +231,44 @@ TYPED_TEST(Stiffness, TangledCellGivesNumbers)
   this->element.stiffness(mirrored, material, K_mirrored);
   for (unsigned int i = 0; i < this->K.size(); i += dim * this->X.size() + 1)
     EXPECT_NEAR(K_mirrored[i], -this->K[i], 1e-13 * largest(this->K));
+}
+
+/// The stiffness of a tetrahedron is the sum over its cells, condensed to its ten nodes: with
+/// straight edges, where it has a rule of its own, and with curved ones.
+TEST(StiffnessOfTetrahedron, IsTheSumOverItsCells)
+{
+  const Element<3> element(2);
+  for (const double curvature : {0., 0.05})
+    {
+      Nodes<3> X(10);
+      X[1] = dealii::Point<3>(1.1, 0.1, 0.);
+      X[2] = dealii::Point<3>(0.2, 0.9, 0.1);
+      X[3] = dealii::Point<3>(0.1, 0.2, 1.2);
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int b = 0; b < a; ++b)
+          {
+            X[snug::mesh::Tetrahedron::middle(a, b)] = 0.5 * (X[a] + X[b]);
+            X[snug::mesh::Tetrahedron::middle(a, b)][a % 3] += curvature * (1. + 0.3 * b);
+          }
+      std::vector<double> sum(900, 0.), of_cell, K;
+      for (unsigned int corner = 0; corner < 4; ++corner)
+        {
+          const auto &T = snug::mesh::tetrahedron_functions(corner);
+          Nodes<3>    x(27);
+          for (unsigned int i = 0; i < 27; ++i)
+            for (unsigned int a = 0; a < 10; ++a)
+              x[i] += T[10 * i + a] * X[a];
+          element.stiffness(x, material, of_cell);
+          for (unsigned int row = 0; row < 81; ++row)
+            for (unsigned int column = 0; column < 81; ++column)
+              for (unsigned int a = 0; a < 10; ++a)
+                for (unsigned int b = 0; b < 10; ++b)
+                  sum[(3 * a + row % 3) * 30 + 3 * b + column % 3] +=
+                    T[row / 3 * 10 + a] * T[column / 3 * 10 + b] * of_cell[row * 81 + column];
+        }
+      element.stiffness_of_tetrahedron(X, material, K);
+      ASSERT_EQ(K.size(), sum.size());
+      for (unsigned int i = 0; i < K.size(); ++i)
+        EXPECT_NEAR(K[i], sum[i], 1e-12 * largest(K)) << curvature;
+    }
 }

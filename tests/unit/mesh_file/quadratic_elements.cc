@@ -1,5 +1,6 @@
 #include "files.h"
 
+#include <snug/mesh/node_reach.h>
 #include <snug/mesh_file/mesh_file.h>
 
 using namespace snug;
@@ -72,6 +73,54 @@ TEST(QuadraticElements, QuadraticFunctionsAreExactOnElementsOfAllShapes)
         << row.file;
 }
 
+/// The functions of a tetrahedron at the nodes of its cells give the positions, and the values of
+/// masters that the constraints of each node give.
+TEST(QuadraticElements, TetrahedraHoldTheNodesOfTheirCells)
+{
+  const auto text = contents("tets-4-binary.msh");
+  const auto mesh = mesh_of<3>(file_body(), text);
+  ASSERT_GT(mesh.tetrahedra().size(), 0u);
+  EXPECT_EQ(4 * mesh.tetrahedra().size(), mesh.cells().size());
+  const auto         &x = mesh.reference_positions();
+  std::vector<double> u(3 * mesh.n_local_nodes());
+  for (unsigned int i = 0; i < u.size(); ++i)
+    u[i] = std::sin(double(i));
+  for (const auto &tetrahedron : mesh.tetrahedra())
+    for (unsigned int k = 0; k < 4; ++k)
+      {
+        const auto  cell = tetrahedron.cells[k];
+        const auto &T    = mesh::tetrahedron_functions(k);
+        EXPECT_EQ(mesh.tetrahedron(cell), &tetrahedron);
+        const auto &nodes  = mesh.cells()[cell].nodes;
+        const auto  direct = mesh::NodeReach<3>(mesh, nodes).values(u.data());
+        const auto  values = mesh::NodeReach<3>::of_cell(mesh, cell, {}).values(u.data());
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          {
+            dealii::Tensor<1, 3> position;
+            for (unsigned int a = 0; a < 10; ++a)
+              position += T[10 * i + a] * x[tetrahedron.nodes[a]];
+            EXPECT_LT((position - x[nodes[i]]).norm(), 1e-14);
+            EXPECT_LT((values[i] - direct[i]).norm(), 1e-14);
+          }
+      }
+}
+
+TEST(QuadraticElements, NormalsOfTetrahedraPointOutwards)
+{
+  const auto  mesh = mesh_of<3>(file_body(), contents("tets-4-binary.msh"));
+  const auto &x    = mesh.reference_positions();
+  for (const auto &tetrahedron : mesh.tetrahedra())
+    for (unsigned int opposite = 0; opposite < 4; ++opposite)
+      {
+        const auto face = tetrahedron.face(opposite);
+        const auto normal =
+          dealii::cross_product_3d(x[face[1]] - x[face[0]], x[face[2]] - x[face[0]]);
+        EXPECT_LT(normal * (x[tetrahedron.nodes[opposite]] - x[face[0]]), 0.);
+        for (unsigned int e = 0; e < 3; ++e)
+          EXPECT_LT((x[face[3 + e]] - 0.5 * (x[face[e]] + x[face[(e + 1) % 3]])).norm(), 1e-14);
+      }
+}
+
 TEST(QuadraticElements, RefinedElementsKeepAllNodesOfTheirCells)
 {
   auto parameters              = file_body();
@@ -83,6 +132,8 @@ TEST(QuadraticElements, RefinedElementsKeepAllNodesOfTheirCells)
   parameters.refine_where = "1";
   const auto all          = mesh_of<3>(parameters, text);
   EXPECT_TRUE(all.hanging().empty());
+  EXPECT_TRUE(all.tetrahedra().empty());
+  EXPECT_GT(mesh.tetrahedra().size(), 0u);
   EXPECT_LT(mesh.n_global_free_nodes(), all.n_global_free_nodes());
   EXPECT_GT(mesh.n_global_free_nodes(), n_quadratic_nodes(text, 3));
 }
