@@ -54,7 +54,6 @@ double elastic_density(const elasticity::Material &material, const dealii::Tenso
 template <int dim>
 std::vector<Integrals> integrals(const StateSolver<dim> &solver, const ContactState<dim> &state)
 {
-  const auto             shapes       = mesh::lagrange_gauss_points<dim>(solver.mesh().degree());
   const auto            &idealization = solver.mesh().idealization();
   std::vector<Integrals> result(solver.model().bodies.size());
   for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
@@ -63,21 +62,23 @@ std::vector<Integrals> integrals(const StateSolver<dim> &solver, const ContactSt
       if (assembler.is_point())
         continue;
       Integrals &of_body = result[solver.tearing().subdomains[s].body];
-      for (unsigned int i = 0; i < assembler.cells().size(); ++i)
+      for (unsigned int i = 0; i < assembler.n_pieces(); ++i)
         {
-          const auto X = assembler.cell_field(i, state.positions);
-          const auto u = assembler.cell_values(i, state.u[s].column(0));
-          const auto stresses =
-            assembler.element().stresses(X, assembler.material(i), u, shapes,
-                                         assembler.thermal_strain(i, state.load_case));
+          const auto  X        = assembler.piece_field(i, state.positions);
+          const auto  u        = assembler.piece_values(i, state.u[s].column(0));
+          const auto &shapes   = assembler.piece_points(i);
+          const auto &material = assembler.material(assembler.cell_of_piece(i));
+          const auto  stresses =
+            assembler.element().stresses(X, material, u, shapes,
+                                         assembler.piece_strain(i, state.load_case));
           for (unsigned int q = 0; q < shapes.size(); ++q)
             {
               const elasticity::CellPoint<dim> point(shapes[q], X, idealization);
               const auto                       G     = point.gradient(u);
               const dealii::Tensor<2, 3>       sigma = stresses[q], GS = G * sigma;
-              of_body.energy += elastic_density(assembler.material(i), sigma) * point.dV;
+              of_body.energy += elastic_density(material, sigma) * point.dV;
               of_body.volume += point.dV;
-              of_body.EGG += assembler.material(i).youngs_modulus * G.norm_square() * point.dV;
+              of_body.EGG += material.youngs_modulus * G.norm_square() * point.dV;
               of_body.GGS += scalar_product(G, GS) * point.dV;
               of_body.GS += GS * point.dV;
               of_body.S += sigma * point.dV;

@@ -31,31 +31,41 @@ struct StressPoint
   dealii::Tensor<1, dim> place;
 };
 
-/// Return the Gauss points of the cells of this rank, per body.
+/// Return the Gauss points of this rank, per body, whose stresses may be the largest or that have a
+/// yield stress.
 template <int dim>
 std::vector<std::vector<StressPoint<dim>>> stress_points(const StateSolver<dim>  &solver,
                                                          const ContactState<dim> &state)
 {
-  const auto shapes = mesh::lagrange_gauss_points<dim>(solver.mesh().degree());
   std::vector<std::vector<StressPoint<dim>>> result(solver.model().bodies.size());
+  std::vector<double>                        largest(result.size(), 0.);
   for (unsigned int s = 0; s < solver.assemblers().size(); ++s)
     {
       const auto &assembler = *solver.assemblers()[s];
       if (assembler.is_point())
         continue;
-      auto &of_body = result[solver.tearing().subdomains[s].body];
-      for (unsigned int i = 0; i < assembler.cells().size(); ++i)
+      const unsigned int body = solver.tearing().subdomains[s].body;
+      for (unsigned int i = 0; i < assembler.n_pieces(); ++i)
         {
-          const auto X = assembler.cell_field(i, state.positions);
-          const auto stresses =
-            assembler.element().stresses(X, assembler.material(i),
-                                         assembler.cell_values(i, state.u[s].column(0)), shapes,
-                                         assembler.thermal_strain(i, state.load_case));
+          const auto  X        = assembler.piece_field(i, state.positions);
+          const auto &shapes   = assembler.piece_points(i);
+          const auto &material = assembler.material(assembler.cell_of_piece(i));
+          const auto  stresses =
+            assembler.element().stresses(X, material,
+                                         assembler.piece_values(i, state.u[s].column(0)), shapes,
+                                         assembler.piece_strain(i, state.load_case));
           for (unsigned int q = 0; q < shapes.size(); ++q)
-            of_body.push_back(
-              {elasticity::von_mises(stresses[q]), assembler.material(i).yield_stress,
-               elasticity::CellPoint<dim>(shapes[q], X, solver.mesh().idealization()).dV,
-               elasticity::value<dim>(shapes[q], X)});
+            {
+              const double von_mises = elasticity::von_mises(stresses[q]);
+              largest[body]          = std::max(largest[body], von_mises);
+              // All points of a fine mesh would be a large part of its memory.
+              if (material.yield_stress == 0. && von_mises < (1. - tie) * largest[body])
+                continue;
+              result[body].push_back(
+                {von_mises, material.yield_stress,
+                 elasticity::CellPoint<dim>(shapes[q], X, solver.mesh().idealization()).dV,
+                 elasticity::value<dim>(shapes[q], X)});
+            }
         }
     }
   return result;
