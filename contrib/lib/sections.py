@@ -59,7 +59,12 @@ def lists_of(cells):
 
 
 def polygons_of(dataset):
-    return lists_of(dataset.GetPolys() if dataset.IsA("vtkPolyData") else dataset.GetCells())
+    """Return the point indices around each polygon. Quadratic triangles list the middles of their
+    edges behind their corners."""
+    if dataset.IsA("vtkPolyData"):
+        return lists_of(dataset.GetPolys())
+    return [cell[[0, 3, 1, 4, 2, 5]] if len(cell) == 6 else cell
+            for cell in lists_of(dataset.GetCells())]
 
 
 def deformed(dataset):

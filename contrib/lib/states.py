@@ -107,8 +107,13 @@ def magnitude_of(grid, name):
 
 
 def cells_of(grid):
-    """Return the point indices of the cells; all cells have the same number of them."""
+    """Return the point indices of the corners of the cells, equally many of each cell: a quadratic
+    triangle, whose middles of edges follow its corners, has its last corner twice."""
     if grid.GetNumberOfCells() == 0:
         return np.zeros((0, 2), dtype=int)
     indices = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    return indices.reshape(grid.GetNumberOfCells(), -1)
+    ends = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    is_triangle = np.diff(ends) == 6
+    if not is_triangle.any():
+        return indices.reshape(grid.GetNumberOfCells(), -1)
+    return indices[ends[:-1, None] + np.where(is_triangle[:, None], [0, 1, 2, 2], [0, 1, 2, 3])]

@@ -9,7 +9,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <unordered_map>
 
@@ -98,25 +102,13 @@ public:
   /// Add the nodes of a cell, or of a boundary face of the cell. Both show the values of the cell.
   void add(const std::vector<unsigned int> &nodes, const unsigned int cell)
   {
-    const unsigned int        region = state.mesh.cells()[cell].region;
-    std::vector<unsigned int> points;
-    std::vector<double>       values;
-    for (const unsigned int node : nodes)
-      {
-        const auto [place, is_new] = number.try_emplace(std::size_t(node) * n_regions + region, 0);
-        if (is_new)
-          {
-            values.clear();
-            for (const auto &field : state.point_fields)
-              field.append(node, region, values);
-            place->second = grid.add_point(state.positions[node], values);
-          }
-        points.push_back(place->second);
-      }
-    values.clear();
-    for (const auto &field : state.cell_fields)
-      values.push_back(field.value(cell));
-    grid.add_cell(points, values);
+    grid.add_cell(points_of(nodes, cell), values_of(cell));
+  }
+
+  /// Add the nodes of a tetrahedron with the cell, or of one of its faces.
+  void add_simplex(const std::vector<unsigned int> &nodes, const unsigned int cell)
+  {
+    grid.add_simplex(points_of(nodes, cell), values_of(cell));
   }
 
   std::string declarations() const { return grid.declarations(); }
@@ -132,6 +124,79 @@ private:
   unsigned int                                  n_regions;
   VtuGrid<d, dim>                               grid;
   std::unordered_map<std::size_t, unsigned int> number; ///< of the point of (node, region)
+
+  std::vector<unsigned int> points_of(const std::vector<unsigned int> &nodes,
+                                      const unsigned int               cell)
+  {
+    const unsigned int        region = state.mesh.cells()[cell].region;
+    std::vector<unsigned int> points;
+    std::vector<double>       values;
+    for (const unsigned int node : nodes)
+      {
+        const auto [place, is_new] = number.try_emplace(std::size_t(node) * n_regions + region, 0);
+        if (is_new)
+          {
+            values.clear();
+            for (const auto &field : state.point_fields)
+              field.append(node, region, values);
+            place->second = grid.add_point(state.positions[node], values);
+          }
+        points.push_back(place->second);
+      }
+    return points;
+  }
+
+  std::vector<double> values_of(const unsigned int cell) const
+  {
+    std::vector<double> values;
+    for (const auto &field : state.cell_fields)
+      values.push_back(field.value(cell));
+    return values;
+  }
+};
+
+/// This class draws boundary faces: three faces on a tetrahedron as one triangle.
+template <int dim>
+class Triangles
+{
+public:
+  using Face = typename mesh::BodyMesh<dim>::Face;
+
+  explicit Triangles(const mesh::BodyMesh<dim> &mesh) : mesh(mesh)
+  {
+    for (const auto &face : mesh.boundary_faces())
+      if (mesh.tetrahedron(face.cell) != nullptr)
+        ++n_faces[key(face)];
+  }
+
+  void draw(const Face &face, BlockGrid<dim - 1, dim> &grid) const
+  {
+    const auto *tetrahedron = mesh.tetrahedron(face.cell);
+    // Formulas may divide a triangle into several boundaries.
+    if (tetrahedron == nullptr || n_faces.at(key(face)) < 3)
+      grid.add(face.nodes, face.cell);
+    else if (const auto nodes = tetrahedron->face(opposite(face)); nodes[0] == corner_node(face))
+      grid.add_simplex({nodes.begin(), nodes.end()}, face.cell);
+  }
+
+private:
+  const mesh::BodyMesh<dim>                          &mesh;
+  std::map<std::array<unsigned int, 3>, unsigned int> n_faces;
+
+  unsigned int corner_node(const Face &face) const { return mesh.cells()[face.cell].nodes[0]; }
+
+  /// Return the corner of the tetrahedron that is not on the triangle of a face.
+  unsigned int opposite(const Face &face) const
+  {
+    const auto &cells = mesh.tetrahedron(face.cell)->cells;
+    return mesh::tetrahedron_axes[std::find(cells.begin(), cells.end(), face.cell) - cells.begin()]
+                                 [face.number / 2];
+  }
+
+  std::array<unsigned int, 3> key(const Face &face) const
+  {
+    return {{mesh.tetrahedron(face.cell)->cells[0], opposite(face), face.boundary}};
+  }
 };
 
 /// Return the blocks of the bodies, then of their boundaries.
@@ -150,9 +215,15 @@ std::vector<Block> blocks_of(const DrawnState<dim>          &state,
                               BlockGrid<dim - 1, dim>(state));
     }
   for (unsigned int k = 0; k < mesh.cells().size(); ++k)
-    bodies[mesh.cells()[k].body].add(mesh.cells()[k].nodes, k);
+    if (const auto *tetrahedron = mesh.tetrahedron(k); tetrahedron == nullptr)
+      bodies[mesh.cells()[k].body].add(mesh.cells()[k].nodes, k);
+    else if (tetrahedron->cells[0] == k)
+      bodies[mesh.cells()[k].body].add_simplex({tetrahedron->nodes.begin(),
+                                                tetrahedron->nodes.end()},
+                                               k);
+  const Triangles<dim> triangles(mesh);
   for (const auto &face : mesh.boundary_faces())
-    boundaries[face.body][face.boundary].add(face.nodes, face.cell);
+    triangles.draw(face, boundaries[face.body][face.boundary]);
 
   std::vector<Block> result;
   for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
@@ -274,7 +345,15 @@ std::string FieldOutput<dim>::write(const Sources                             &o
     {{"region", 1}, [&](const unsigned int cell) { return mesh.cells()[cell].region; }},
     {{"subdomain", 1}, [&](const unsigned int cell) { return subdomain[cell]; }}};
   if (errors)
-    of_cells.push_back({{"error", 1}, [&](const unsigned int cell) { return (*errors)[cell]; }});
+    of_cells.push_back({{"error", 1}, [&](const unsigned int cell) {
+                          const auto *tetrahedron = mesh.tetrahedron(cell);
+                          if (tetrahedron == nullptr)
+                            return (*errors)[cell];
+                          double squares = 0.;
+                          for (const unsigned int part : tetrahedron->cells)
+                            squares += (*errors)[part] * (*errors)[part];
+                          return std::sqrt(squares);
+                        }});
   auto positions = state.positions;
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     positions[node] = motion(node).point(positions[node]);

@@ -94,6 +94,13 @@ constexpr std::uint8_t cell_type()
   return d == 1 ? 3 : d == 2 ? 9 : 12;
 }
 
+/// Return the cell type of VTK: quadratic triangle, quadratic tetrahedron.
+template <int d>
+constexpr std::uint8_t simplex_type()
+{
+  return d == 2 ? 22 : 24;
+}
+
 /// Return the offsets along the axes of the corners of a cell: around each face, with the upper
 /// face after the lower one.
 template <int d>
@@ -161,18 +168,31 @@ void VtuGrid<d, dim>::add_cell(const std::vector<unsigned int> &points,
           for (const auto &at : corner_offsets<d>())
             corners.push_back(narrow<std::int32_t>(
               points[(i + at[0]) * stride[0] + (j + at[1]) * stride[1] + (k + at[2]) * stride[2]]));
-          append(values, of_cells);
+          end_cell(cell_type<d>(), values);
         }
+}
+
+template <int d, int dim>
+void VtuGrid<d, dim>::add_simplex(const std::vector<unsigned int> &points,
+                                  const std::vector<double>       &values)
+{
+  SNUG_ASSERT_EQUAL(std::size_t((d + 1) * (d + 2) / 2), points.size());
+  for (const unsigned int point : points)
+    corners.push_back(narrow<std::int32_t>(point));
+  end_cell(simplex_type<d>(), values);
+}
+
+template <int d, int dim>
+void VtuGrid<d, dim>::end_cell(const std::uint8_t type, const std::vector<double> &values)
+{
+  ends.push_back(narrow<std::int32_t>(corners.size()));
+  types.push_back(type);
+  append(values, of_cells);
 }
 
 template <int d, int dim>
 std::string VtuGrid<d, dim>::piece(const unsigned int compression) const
 {
-  const std::size_t         n_corners = corner_offsets<d>().size();
-  const std::size_t         n_cells   = corners.size() / n_corners;
-  std::vector<std::int32_t> ends(n_cells);
-  for (std::size_t k = 0; k < n_cells; ++k)
-    ends[k] = narrow<std::int32_t>((k + 1) * n_corners);
   std::ostringstream out;
   const auto         write = [&](const std::string &declaration, const auto &values) {
     out << '<' << declaration << " format=\"binary\">\n"
@@ -184,13 +204,13 @@ std::string VtuGrid<d, dim>::piece(const unsigned int compression) const
       write(declared("Float32", array.name, array.names), array.values);
     out << "</" << section << ">\n";
   };
-  out << "<Piece NumberOfPoints=\"" << places.values.size() / 3 << "\" NumberOfCells=\"" << n_cells
-      << "\">\n";
+  out << "<Piece NumberOfPoints=\"" << places.values.size() / 3 << "\" NumberOfCells=\""
+      << types.size() << "\">\n";
   write_all("Points", {places});
   out << "<Cells>\n";
   write(declared("Int32", "connectivity", {}), corners);
   write(declared("Int32", "offsets", {}), ends);
-  write(declared("UInt8", "types", {}), Bytes(n_cells, cell_type<d>()));
+  write(declared("UInt8", "types", {}), types);
   out << "</Cells>\n";
   write_all("PointData", at_points);
   write_all("CellData", of_cells);

@@ -18,6 +18,7 @@ import xml.etree.ElementTree
 try:
     import numpy as np
     from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
     from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader, vtkXMLPUnstructuredGridReader
 except ImportError:  # the packages are those of Debian's Python
     if os.path.realpath(sys.executable) == os.path.realpath("/usr/bin/python3"):
@@ -47,6 +48,14 @@ def series(path):
 def named(block):
     return {block.GetMetaData(k).Get(block.NAME()): block.GetBlock(k)
             for k in range(block.GetNumberOfBlocks())}
+
+
+def sizes(grid, kind):
+    """Return the sum of the areas or volumes of the cells, which is signed."""
+    size = vtkCellSizeFilter()
+    size.SetInputData(grid)
+    size.Update()
+    return vtk_to_numpy(size.GetOutput().GetCellData().GetArray(kind)).sum()
 
 
 def blocks(path):
@@ -116,11 +125,30 @@ class States(unittest.TestCase):
         self.assertLess(abs(total / along - 1.), .01)
 
 
+class Tetrahedra(unittest.TestCase):
+    def test_they_are_quadratic_fill_the_bodies_and_are_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, str(ROOT / "tests/regression/quadratic-elements.prm"),
+                            "--output", folder, "--set", "Task=state"], check=True,
+                           stdout=subprocess.DEVNULL)
+            found = blocks(pathlib.Path(folder, "solution-0000.vtm"))
+            for options in ([], ["--cut", "x=0.3"], ["--model"]):
+                done = Pictures.plot(*options, directory=folder)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+        upper, lower = (found["bodies"][body][0] for body in ("upper", "lower"))
+        bottom = found["boundaries"]["upper.bottom"][0]
+        # The elements at the left of the lower body are refined, so that hexahedra fill them.
+        for grid, types in ((upper, {24}), (lower, {12, 24}), (bottom, {22})):
+            self.assertEqual({grid.GetCellType(k) for k in range(grid.GetNumberOfCells())}, types)
+        self.assertAlmostEqual(sizes(upper, "Volume"), 2., places=5)
+        self.assertAlmostEqual(sizes(bottom, "Area"), 2., places=5)
+
+
 class Pictures(unittest.TestCase):
     @staticmethod
-    def plot(*options):
-        return subprocess.run([str(ROOT / "contrib/plot"), *options, str(OUTPUT)], text=True,
-                              capture_output=True, check=False)
+    def plot(*options, directory=None):
+        return subprocess.run([str(ROOT / "contrib/plot"), *options, str(directory or OUTPUT)],
+                              text=True, capture_output=True, check=False)
 
     def test_all_are_drawn(self):
         for options in ([], ["--cut", "x=0.3", "--view", "-60,25"]):

@@ -19,7 +19,8 @@ namespace snug::io {
  *
  * Points lie on the design in the position of the load case, before deformation: "warp by vector
  * displacement" shows the deformed bodies, and warping by minus design_displacement shows the
- * reference bodies. Cells share points within each region of a body.
+ * reference bodies. Cells share points within each region of a body. A mesh::Tetrahedron is one
+ * quadratic tetrahedron of VTK, with the error of its four cells.
  *
  * | field               | components | units                |
  * |---------------------|------------|----------------------|

@@ -21,8 +21,8 @@ struct Quantity
 /**
  * Cells of dimension @p d in space of dimension @p dim that share points, with values at the
  * points and of the cells, and their text in VTU files. A cell of degree p is drawn as p^d cells,
- * which are linear between their points. Numbers are written in single precision, vectors with
- * three components.
+ * which are linear between their points, simplices of degree 2 as they are. Numbers are written in
+ * single precision, vectors with three components.
  *
  * Source: VTK file formats, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
  */
@@ -40,12 +40,16 @@ public:
   /// coordinate fastest.
   void add_cell(const std::vector<unsigned int> &points, const std::vector<double> &values);
 
+  /// Add a simplex of degree 2. @param[in] points Points of its corners, then of the middles of its
+  /// edges, in the order of VTK: 01, 12, 02 and in space 03, 13, 23.
+  void add_simplex(const std::vector<unsigned int> &points, const std::vector<double> &values);
+
   /// Return the grid's piece of the text of a VTU file. @param[in] compression Level of zlib, 0
   /// (none) to 9.
   std::string piece(unsigned int compression) const;
 
   /// Return whether there is no cell.
-  bool is_empty() const { return corners.empty(); }
+  bool is_empty() const { return types.empty(); }
 
   /// Return the declarations of the arrays for pvtu().
   std::string declarations() const;
@@ -67,7 +71,11 @@ private:
 
   std::vector<Array>        at_points, of_cells;
   Array                     places{"", dim, {"X", "Y", "Z"}, {}};
-  std::vector<std::int32_t> corners; ///< 2^d corners of each drawn cell, in the order of VTK
+  std::vector<std::int32_t> corners; ///< points of the drawn cells, in the order of VTK
+  std::vector<std::int32_t> ends;    ///< of the points of each drawn cell
+  std::vector<std::uint8_t> types;   ///< of the drawn cells
+
+  void end_cell(std::uint8_t type, const std::vector<double> &values);
 };
 
 /// Return the VTU text of pieces with the same quantities, as those of several ranks.
