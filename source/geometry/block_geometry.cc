@@ -20,6 +20,7 @@ template <int dim>
 std::vector<double> weights(const dealii::Point<dim> &u)
 {
   std::vector<double> result;
+  result.reserve(1u << dim);
   for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
     result.push_back(dealii::GeometryInfo<dim>::d_linear_shape_function(u, v));
   return result;
@@ -57,7 +58,9 @@ GridPoint grid_point(const Vertices                      &block,
 
 template <int dim>
 BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_mesh)
-  : mesh(std::move(block_mesh)), is_curved(mesh->blocks.size(), false)
+  : mesh(std::move(block_mesh))
+  , is_curved(mesh->blocks.size(), false)
+  , on_curve(mesh->vertices.size(), false)
 {
   using Info = dealii::GeometryInfo<dim>;
   // Edges of curved faces are stored separately, because blocks that have only such an edge must
@@ -66,6 +69,8 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
   for (const Vertices &block : mesh->blocks)
     for (const unsigned int f : Info::face_indices())
       {
+        if (mesh->surfaces.empty())
+          break;
         const Vertices face  = face_of<dim>(block, f);
         const auto     found = mesh->boundaries.find(sorted(face));
         if (found == mesh->boundaries.end() || mesh->surfaces.count(found->second) == 0)
@@ -76,7 +81,6 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
           for (unsigned int e = 0; e < 4; ++e)
             curved.emplace(sorted(edge_of<2>(face, e)), surface);
       }
-  std::vector<bool> on_curve(mesh->vertices.size(), false);
   for (const auto &entry : curved)
     for (const unsigned int vertex : entry.first)
       on_curve[vertex] = true;
@@ -87,7 +91,7 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
     for (unsigned int e = 0; e < Info::lines_per_cell; ++e)
       {
         const Vertices edge = edge_of<dim>(mesh->blocks[b], e);
-        if (on_curve[edge[0]] && on_curve[edge[1]])
+        if (may_curve(edge))
           is_curved[b] =
             is_curved[b] || curved.count(sorted(edge)) > 0 || mesh->pieces.count(sorted(edge)) > 0;
       }
@@ -107,7 +111,13 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
   using Info = dealii::GeometryInfo<dim>;
   typename BodyGeometry<dim>::CoarseMesh result;
   std::map<GridPoint, unsigned int>      numbers;
-  const auto                            &n = mesh->cells;
+  const unsigned int                     none = static_cast<unsigned int>(-1);
+  std::vector<unsigned int>              of_vertex(mesh->vertices.size(), none);
+  std::vector<bool>                      at_boundary(mesh->vertices.size(), false);
+  for (const auto &face : mesh->boundaries)
+    for (const unsigned int vertex : face.first)
+      at_boundary[vertex] = true;
+  const auto &n = mesh->cells;
   for (unsigned int b = 0; b < mesh->blocks.size(); ++b)
     for (unsigned int c = 0; c < cells_per_block(); ++c)
       {
@@ -123,19 +133,28 @@ typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
                 place[d] += v >> d & 1;
                 u[d] = static_cast<double>(place[d]) / n[d];
               }
-            const auto entry =
-              numbers.emplace(grid_point<dim>(mesh->blocks[b], place, n), result.vertices.size());
-            if (entry.second)
-              // The first block sets the vertex, which is equal up to round-off in other blocks.
-              result.vertices.push_back(block_position(b, u));
-            cell[v] = entry.first->second;
+            const auto point = grid_point<dim>(mesh->blocks[b], place, n);
+            // Most points of imported meshes are vertices of blocks.
+            unsigned int &number = point.size() == 1 ? of_vertex[point[0].first]
+                                                     : numbers.emplace(point, none).first->second;
+            if (number == none)
+              {
+                // The first block sets the vertex, which is equal up to round-off in other blocks.
+                number = result.vertices.size();
+                result.vertices.push_back(block_position(b, u));
+              }
+            cell[v] = number;
           }
         result.cells.push_back(cell);
         for (const unsigned int f : Info::face_indices())
           // Only cells at this side of the block have boundary faces there.
           if (index[f / 2] == (f % 2 == 1 ? n[f / 2] - 1 : 0))
             {
-              const auto found = mesh->boundaries.find(sorted(face_of<dim>(mesh->blocks[b], f)));
+              const auto face = face_of<dim>(mesh->blocks[b], f);
+              if (!std::all_of(face.begin(), face.end(),
+                               [&](const unsigned int vertex) { return at_boundary[vertex]; }))
+                continue;
+              const auto found = mesh->boundaries.find(sorted(face));
               if (found != mesh->boundaries.end())
                 result.boundary_faces.emplace_back(face_of<dim>(cell, f), found->second);
             }
@@ -170,16 +189,17 @@ dealii::Point<dim> BlockGeometry<dim>::interpolated(const Vertices            &v
                                                     const std::vector<double> &weights,
                                                     Manifold                  *manifold) const
 {
+  Point result;
+  if (manifold == nullptr)
+    {
+      for (unsigned int i = 0; i < vertices.size(); ++i)
+        result += weights[i] * mesh->vertices[vertices[i]];
+      return result;
+    }
   std::vector<Point> points;
   for (const unsigned int vertex : vertices)
     points.push_back(mesh->vertices[vertex]);
-  if (manifold != nullptr)
-    return manifold->get_new_point(dealii::make_array_view(points),
-                                   dealii::make_array_view(weights));
-  Point result;
-  for (unsigned int i = 0; i < points.size(); ++i)
-    result += weights[i] * points[i];
-  return result;
+  return manifold->get_new_point(dealii::make_array_view(points), dealii::make_array_view(weights));
 }
 
 template <int dim>
@@ -187,6 +207,8 @@ std::unique_ptr<dealii::Point<dim>>
 BlockGeometry<dim>::piece_position(const Vertices            &vertices,
                                    const std::vector<double> &weights) const
 {
+  if (!may_curve(vertices))
+    return nullptr;
   const Vertices key   = sorted(vertices);
   const auto     found = mesh->pieces.find(key);
   if (found == mesh->pieces.end())
@@ -204,7 +226,7 @@ dealii::Point<dim> BlockGeometry<dim>::edge_position(const Vertices &vertices, d
 {
   if (const auto x = piece_position(vertices, {1. - t, t}))
     return *x;
-  const auto found = curved.find(sorted(vertices));
+  const auto found = may_curve(vertices) ? curved.find(sorted(vertices)) : curved.end();
   return interpolated(vertices, {1. - t, t}, found == curved.end() ? nullptr : found->second);
 }
 
@@ -214,7 +236,7 @@ dealii::Point<dim> BlockGeometry<dim>::face_position(const Vertices         &ver
 {
   if (const auto x = piece_position(vertices, weights<2>(u)))
     return *x;
-  const auto found = curved.find(sorted(vertices));
+  const auto found = may_curve(vertices) ? curved.find(sorted(vertices)) : curved.end();
   Manifold  *own   = found == curved.end() ? nullptr : found->second;
   // In a Coons patch each vertex is counted by two edges, so the bilinear interpolation of the
   // vertices is subtracted once. A face on a surface of its own starts from this surface instead.

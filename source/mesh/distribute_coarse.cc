@@ -29,11 +29,9 @@ std::vector<CellFace<dim>> sorted_faces(const CoarseMesh<dim> &coarse)
     for (unsigned int f = 0; f < 2 * dim; ++f)
       {
         faces.push_back({{}, cell, f});
-        auto &vertices = faces.back().vertices;
-        for (unsigned int v = 0; v < vertices.size(); ++v)
-          vertices[v] =
-            coarse.cells[cell].vertices[dealii::GeometryInfo<dim>::face_to_cell_vertices(f, v)];
-        std::sort(vertices.begin(), vertices.end());
+        const auto vertices = geometry::face_of<dim>(coarse.cells[cell].vertices, f);
+        std::copy(vertices.begin(), vertices.end(), faces.back().vertices.begin());
+        std::sort(faces.back().vertices.begin(), faces.back().vertices.end());
       }
   std::sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell;

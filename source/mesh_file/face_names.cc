@@ -11,7 +11,7 @@ using geometry::sorted;
 FaceNames::FaceNames(const MeshFile                                             &file,
                      const geometry::BodyMeshParameters                         &parameters,
                      const std::vector<Element>                                 &cells,
-                     const std::map<Corners, unsigned int>                      &n_cells_of_face,
+                     const geometry::NumberByVertices                           &n_cells_of_face,
                      const std::function<std::vector<Corners>(const Element &)> &parts)
   : file(file), parameters(parameters), cells(cells), n_cells_of_face(n_cells_of_face), parts(parts)
 {

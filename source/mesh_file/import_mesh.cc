@@ -64,7 +64,7 @@ private:
   std::unique_ptr<ElementSplit>       split; ///< null: no element is split
   geometry::BlockMesh<dim>            mesh;
   /// faces -> number of cells that share the face
-  std::map<Corners, unsigned int> n_cells_of_face;
+  geometry::NumberByVertices      n_cells_of_face;
   std::map<Corners, unsigned int> exact_face; ///< corners of an element -> index of its face
 
   std::vector<Corners> parts(const Element &element)

@@ -71,7 +71,16 @@ private:
   /// curved edges and faces, by the vertices in ascending order
   std::map<std::vector<unsigned int>, Manifold *> curved;
   std::vector<bool>                               is_curved;    ///< per block
+  std::vector<bool>                               on_curve;     ///< per vertex
   Point                                           lower, upper; ///< bounds of the vertices
+
+  /// Return whether an edge or a face may be curved: all vertices are on curved ones. This check
+  /// saves most searches.
+  bool may_curve(const std::vector<unsigned int> &vertices) const
+  {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [&](const unsigned int vertex) { return on_curve[vertex]; });
+  }
 
   unsigned int cells_per_block() const { return product(mesh->cells); }
   Point        block_position(unsigned int block, const Point &u) const;

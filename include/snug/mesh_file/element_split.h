@@ -1,6 +1,7 @@
 #ifndef snug_mesh_file_element_split_h
 #define snug_mesh_file_element_split_h
 
+#include <snug/geometry/cell_numbering.h>
 #include <snug/mesh_file/mesh_file.h>
 
 namespace snug::mesh_file {
@@ -38,8 +39,8 @@ public:
   unsigned int middle(std::vector<unsigned int> corners);
 
 private:
-  std::vector<dealii::Point<3>>                    &points;
-  std::map<std::vector<unsigned int>, unsigned int> middles;
+  std::vector<dealii::Point<3>> &points;
+  geometry::NumberByVertices     middles;
 };
 /// Return the shape of a face with these corners: a line, a triangle or a quadrilateral.
 ElementShape face_shape(const std::vector<unsigned int> &corners);

@@ -2,6 +2,7 @@
 #define snug_mesh_file_face_names_h
 
 #include <snug/geometry/body_geometry.h>
+#include <snug/geometry/cell_numbering.h>
 #include <snug/mesh_file/mesh_file.h>
 
 #include <functional>
@@ -27,7 +28,7 @@ public:
   FaceNames(const MeshFile                                             &file,
             const geometry::BodyMeshParameters                         &parameters,
             const std::vector<Element>                                 &cells,
-            const std::map<Corners, unsigned int>                      &n_cells_of_face,
+            const geometry::NumberByVertices                           &n_cells_of_face,
             const std::function<std::vector<Corners>(const Element &)> &parts);
 
   /// Return the sorted corners and the names of the faces that have a name, in the order of the
@@ -40,7 +41,7 @@ private:
   const MeshFile                                            &file;
   const geometry::BodyMeshParameters                        &parameters;
   const std::vector<Element>                                &cells;
-  const std::map<Corners, unsigned int>                     &n_cells_of_face;
+  const geometry::NumberByVertices                          &n_cells_of_face;
   const std::function<std::vector<Corners>(const Element &)> parts;
   std::map<Corners, std::vector<std::string>>                names_of_face;
   std::vector<Corners>                                       order; ///< faces with names
