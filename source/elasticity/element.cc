@@ -224,34 +224,6 @@ double Element<dim>::aspect(const Nodes &X) const
   return largest;
 }
 
-template <int dim>
-double Element<dim>::quality(const Nodes &X) const
-{
-  // Use nodes as well as Gauss points, because the minimum determinant of a bilinear cell is at a
-  // corner. Nodes have no quadrature weight, so the mean is over the Gauss points.
-  double smallest = std::numeric_limits<double>::max();
-  double mean     = 0.;
-  for (const auto *points : {&gauss, &nodes})
-    for (const auto &shape : *points)
-      {
-        // Use the section alone, because the weight 2 pi r would give cells near the axis a low
-        // quality.
-        const double det = determinant(jacobian(shape, X));
-        smallest         = std::min(smallest, det);
-        mean += shape.weight * std::abs(det);
-      }
-  if (idealization.is_axisymmetric())
-    {
-      // Negative radii make negative volumes. Rounding of nodes on the axis is allowed.
-      const auto radii =
-        std::minmax_element(X.begin(), X.end(), [](auto &x, auto &y) { return x[0] < y[0]; });
-      const double round_off = 1e-10;
-      if ((*radii.first)[0] < -round_off * (*radii.second)[0])
-        return 0.;
-    }
-  return mean > 0. ? smallest / mean : 0.;
-}
-
 /// Return det J / prod_d |J e_d|.
 template <int dim>
 static double scaled_determinant(const dealii::Tensor<2, dim> &J)
@@ -263,18 +235,37 @@ static double scaled_determinant(const dealii::Tensor<2, dim> &J)
 }
 
 template <int dim>
-double Element<dim>::scaled_jacobian(const Nodes &X) const
+std::pair<double, double> Element<dim>::qualities(const Nodes &X) const
 {
-  double smallest = 1.;
+  // Use nodes as well as Gauss points, because the minimum determinant of a bilinear cell is at a
+  // corner. Nodes have no quadrature weight, so the mean is over the Gauss points.
+  double smallest = std::numeric_limits<double>::max(), least_ratio = 1.;
+  double mean = 0.;
   for (const auto *points : {&gauss, &nodes})
     for (const auto &shape : *points)
       {
-        const double ratio = scaled_determinant(jacobian(shape, X));
+        // Use the section alone, because the weight 2 pi r would give cells near the axis a low
+        // quality.
+        const auto   J     = jacobian(shape, X);
+        const double det   = determinant(J);
+        const double ratio = scaled_determinant(J);
+        smallest           = std::min(smallest, det);
+        mean += shape.weight * std::abs(det);
         // A comparison with NaN is false, and NaN counts as 0.
-        if (!(ratio > smallest))
-          smallest = std::isnan(ratio) ? 0. : ratio;
+        if (!(ratio > least_ratio))
+          least_ratio = std::isnan(ratio) ? 0. : ratio;
       }
-  return smallest;
+  double quality = mean > 0. ? smallest / mean : 0.;
+  if (idealization.is_axisymmetric())
+    {
+      // Negative radii make negative volumes. Rounding of nodes on the axis is allowed.
+      const auto radii =
+        std::minmax_element(X.begin(), X.end(), [](auto &x, auto &y) { return x[0] < y[0]; });
+      const double round_off = 1e-10;
+      if ((*radii.first)[0] < -round_off * (*radii.second)[0])
+        quality = 0.;
+    }
+  return {quality, least_ratio};
 }
 
 template <int dim>

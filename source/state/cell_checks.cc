@@ -38,9 +38,9 @@ void check_cells(const mesh::BodyMesh<dim>                   &mesh,
       std::vector<dealii::Tensor<1, dim>> X;
       for (const unsigned int node : cell.nodes)
         X.push_back(mesh.reference_positions()[node]);
-      const auto &element = elements[cell.body];
-      const auto  found   = flaw_of_cell(model.body_names[cell.body], X.front(), element.quality(X),
-                                         element.scaled_jacobian(X), model.least_scaled_jacobian);
+      const auto [quality, jacobian] = elements[cell.body].qualities(X);
+      const auto found = flaw_of_cell(model.body_names[cell.body], X.front(), quality, jacobian,
+                                      model.least_scaled_jacobian);
       if (!found.empty())
         throw InputError(found + " in the initial mesh; check its 'Warp' and 'Curved faces'");
     }

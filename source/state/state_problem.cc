@@ -207,8 +207,9 @@ std::vector<double> StateProblem<dim>::checked_jacobians(const Field            
         for (unsigned int i = 0; i < assemblers[s]->cells().size(); ++i)
           {
             const auto X     = assemblers[s]->cell_field(i, positions);
-            quality          = std::min(quality, element.quality(X));
-            jacobian         = std::min(jacobian, element.scaled_jacobian(X));
+            const auto own   = element.qualities(X);
+            quality          = std::min(quality, own.first);
+            jacobian         = std::min(jacobian, own.second);
             const auto found = flaw_of_cell(model.body_names[systems[s].body], X.front(), quality,
                                             jacobian, model.least_scaled_jacobian);
             if (!found.empty())
