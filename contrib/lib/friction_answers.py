@@ -157,12 +157,13 @@ def stick_radius(points, coefficient):
 
 class MindlinCycle:
     """This class has the forces, displacements and works of prm/mindlin.prm, of both halves, and
-    Mindlin's formulas for them; steps of a quarter of a cycle: 4."""
+    Mindlin's formulas for them. A quarter of a cycle has the given number of steps."""
 
-    coefficient, quarter = .5, 4
+    coefficient = .5
     compliance = 2 * (2 - .3) / (1000 / 2.6)  # sum of (2 - nu) / G
 
-    def __init__(self, result):
+    def __init__(self, result, quarter=4):
+        self.quarter = quarter
         states = [case["state"] for case in result.summary["load_cases"]]
         self.steps = list(result.cases.values())
         self.load = 2 * states[0]["contact_force"][2]
