@@ -15,9 +15,9 @@ const double image_dependence = 1e-6;
 /// the square of its norm.
 const double image_noise = 1e-20;
 
-/// Recalled directions are dropped if an iteration leaves more than this part of the residuals. With
-/// large contrasts of stiffness, the approximate images are poor. Measured with a contrast of 1e4:
-/// 68 instead of 104 F-mults.
+/// Recalled directions are dropped if an iteration leaves more than this part of the residuals.
+/// With large contrasts of stiffness, the approximate images are poor. Measured with a contrast of
+/// 1e4: 68 instead of 104 F-mults.
 const double poor_reduction = 0.95;
 
 double length_of(const std::vector<double> &x)
