@@ -117,6 +117,18 @@ typename ShapeBasis<dim>::Field ShapeBasis<dim>::column(const unsigned int i) co
 }
 
 template <int dim>
+typename ShapeBasis<dim>::Field ShapeBasis<dim>::moved(const std::vector<double> &alpha) const
+{
+  if (kept.empty() || kept.size() < n_variables())
+    return apply(alpha);
+  Field result(n_nodes);
+  for (const auto &[i, of_variable] : kept)
+    for (const auto &[node, move] : of_variable)
+      result[node] += alpha[i] * move;
+  return result;
+}
+
+template <int dim>
 std::vector<double> ShapeBasis<dim>::transpose(const Field &gradient) const
 {
   std::vector<double> result(n_variables(), 0.);
@@ -204,7 +216,7 @@ mesh::Field<dim> positions(const mesh::BodyMesh<dim> &mesh,
                            const std::vector<double> &design)
 {
   auto       x = mesh.reference_positions();
-  const auto v = basis.apply(design);
+  const auto v = basis.moved(design);
   for (unsigned int node = 0; node < x.size(); ++node)
     x[node] += v[node];
   return x;

@@ -77,6 +77,10 @@ public:
   /// Return V alpha at the local points. Collective.
   virtual Field apply(const std::vector<double> &alpha) const = 0;
 
+  /// Return V alpha as a sum of columns if all columns are cached, which needs no linear solve,
+  /// else by apply(). Both are equal up to round-off. Collective.
+  Field moved(const std::vector<double> &alpha) const;
+
   /// Return V' gradient summed over ranks, which maps the gradient with respect to points to
   /// dJ/dalpha. The sum of @p gradient over ranks is the whole gradient. Collective.
   std::vector<double> transpose(const Field &gradient) const;
