@@ -15,7 +15,7 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
   {
     const RunContext::Timer timer(context, "setup");
     check_distances(scene, *mesh);
-    tearing = mesh::tear(*mesh);
+    tearing = mesh::tear(*mesh, scene.tearing.cluster_edge);
     shape::BodyNames names;
     for (const auto &body : scene.bodies)
       names.names.push_back(body.name);

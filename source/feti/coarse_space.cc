@@ -34,29 +34,32 @@ CoarseStructure::CoarseStructure(const RowLayout   &the_layout,
             nullptr,
             coarse_group(layout.communicator(), table.n_kernel(), MatrixKind::coarse, n_ranks))
 {
-  // The entries of a row are sorted by subdomain. The entries of one subdomain in one row make one
-  // block of G, the n_modes numbers G(s, row) = R_s' B_s(row, :)'.
+  // The entries of one cluster in one row make one block of G, the n_modes numbers
+  // G(c, row) = R_c' B_c(row, :)'.
   const auto &start    = layout.entry_start();
   const auto &unknowns = layout.entry_unknowns();
   block_start.assign(1, 0);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     {
+      std::set<unsigned int> of_row;
       for (unsigned int e = start[row]; e < start[row + 1]; ++e)
-        {
-          if (e == start[row] || unknowns[e].subdomain != unknowns[e - 1].subdomain)
-            block_subdomain.push_back(unknowns[e].subdomain);
-          block_of_entry.push_back(narrow<unsigned int>(block_subdomain.size()) - 1);
-        }
-      block_start.push_back(narrow<unsigned int>(block_subdomain.size()));
+        of_row.insert(table.cluster_of(unknowns[e].subdomain));
+      block_cluster.insert(block_cluster.end(), of_row.begin(), of_row.end());
+      const auto first = block_cluster.begin() + block_start.back();
+      for (unsigned int e = start[row]; e < start[row + 1]; ++e)
+        block_of_entry.push_back(narrow<unsigned int>(
+          std::lower_bound(first, block_cluster.end(), table.cluster_of(unknowns[e].subdomain)) -
+          block_cluster.begin()));
+      block_start.push_back(narrow<unsigned int>(block_cluster.size()));
     }
-  // The first subdomain of a body represents the body. Z_s is regular, so that the n_modes coarse
-  // unknowns of the subdomain distinguish all rigid motions of the body.
+  // The first cluster of a body represents the body. Z is regular, so that the n_modes coarse
+  // unknowns of the cluster distinguish all rigid motions of the body.
   for (unsigned int body = 0; body < table.n_bodies(); ++body)
     {
       const auto s = narrow<unsigned int>(std::find(table.body.begin(), table.body.end(), body) -
                                           table.body.begin());
       for (unsigned int mode = 0; mode < table.n_modes; ++mode)
-        representatives.push_back(s * table.n_modes + mode);
+        representatives.push_back(table.cluster_of(s) * table.n_modes + mode);
     }
   build_pattern();
 }
@@ -65,16 +68,16 @@ CoarseStructure::CoarseStructure(const RowLayout   &the_layout,
 /// faces share a symbolic factorization.
 void CoarseStructure::build_pattern()
 {
-  const unsigned int m = table.n_modes, n_subdomains = narrow<unsigned int>(table.body.size());
+  const unsigned int m = table.n_modes;
   std::set<Coupling> couplings, contact_couplings;
-  // Subdomains without rows also need their diagonal block.
-  for (unsigned int s = 0; s < n_subdomains; ++s)
-    couplings.insert({s, s});
+  // Clusters without rows also need their diagonal block.
+  for (unsigned int c = 0; c < table.n_clusters(); ++c)
+    couplings.insert({c, c});
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
       for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
         {
-          const Coupling pair{block_subdomain[a], block_subdomain[b]};
+          const Coupling pair{block_cluster[a], block_cluster[b]};
           couplings.insert(pair);
           // Contact rows change with the active set, so only their entries are summed for each
           // face.
@@ -113,10 +116,10 @@ std::vector<double> CoarseStructure::norms(const qp::MultiVector &c) const
 CoarseSpace::CoarseSpace(const CoarseStructure              &structure,
                          const std::vector<double>          &G_entries,
                          const unsigned int                  offset,
-                         const std::vector<SubdomainSystem> &systems)
+                         const std::vector<qp::MultiVector> &Z)
   : pattern(structure)
   , layout(structure.layout)
-  , blocks(structure.block_subdomain.size() * structure.table.n_modes, 0.)
+  , blocks(structure.block_cluster.size() * structure.table.n_modes, 0.)
   , equality_gram(structure.gram.values.size(), 0.)
 {
   const unsigned int m = pattern.table.n_modes;
@@ -128,7 +131,7 @@ CoarseSpace::CoarseSpace(const CoarseStructure              &structure,
     if (!layout.contact_rows()[row])
       add_column(row, &blocks[std::size_t(pattern.block_start[row]) * m], equality_gram);
   sum_over_ranks(equality_gram, layout.communicator());
-  set_body_modes(systems);
+  set_body_modes(Z);
 }
 
 /// Add g g' to @p values, which are in the pattern's order. @p column holds g in the blocks of
@@ -137,17 +140,17 @@ void CoarseSpace::add_column(const unsigned int   row,
                              const double        *column,
                              std::vector<double> &values) const
 {
-  const unsigned int m          = pattern.table.n_modes;
-  const auto        &start      = pattern.block_start;
-  const auto        &subdomains = pattern.block_subdomain;
+  const unsigned int m        = pattern.table.n_modes;
+  const auto        &start    = pattern.block_start;
+  const auto        &clusters = pattern.block_cluster;
   for (unsigned int a = start[row]; a < start[row + 1]; ++a)
     for (unsigned int b = start[row]; b < start[row + 1]; ++b)
       {
         // The m rows of a block row have the same pattern.
-        const unsigned int first  = subdomains[a] * m;
+        const unsigned int first  = clusters[a] * m;
         const auto        &starts = pattern.gram.row_start();
         const unsigned int length = starts[first + 1] - starts[first];
-        double            *to     = &values[pattern.gram.position(first, subdomains[b] * m)];
+        double            *to     = &values[pattern.gram.position(first, clusters[b] * m)];
         for (unsigned int i = 0; i < m; ++i, to += length)
           for (unsigned int j = 0; j < m; ++j)
             to[j] += column[(a - start[row]) * m + i] * column[(b - start[row]) * m + j];
@@ -163,14 +166,14 @@ std::vector<double> CoarseSpace::combined_column(const qp::FrictionCone      &co
 {
   const unsigned int  m     = pattern.table.n_modes;
   const auto         &start = pattern.block_start;
-  const auto          all   = pattern.block_subdomain.begin();
+  const auto          all   = pattern.block_cluster.begin();
   const unsigned int  base = start[cone.tangents[0]], end = start[cone.tangents[0] + 1];
   std::vector<double> column(std::size_t(end - base) * m);
   const auto          add = [&](const double factor, const unsigned int row) {
     for (unsigned int b = start[row]; factor != 0. && b < start[row + 1]; ++b)
       {
-        const auto found = std::lower_bound(all + base, all + end, pattern.block_subdomain[b]);
-        SNUG_ASSERT(found != all + end && *found == pattern.block_subdomain[b],
+        const auto found = std::lower_bound(all + base, all + end, pattern.block_cluster[b]);
+        SNUG_ASSERT(found != all + end && *found == pattern.block_cluster[b],
                              "the blocks of a normal row are among those of its tangential rows");
         for (unsigned int i = 0; i < m; ++i)
           column[(found - all - base) * m + i] += factor * blocks[std::size_t(b) * m + i];
@@ -182,18 +185,19 @@ std::vector<double> CoarseSpace::combined_column(const qp::FrictionCone      &co
   return column;
 }
 
-/// Each subdomain has its own orthonormal R. Z_s combines the columns of R to motions of the whole
+/// Each cluster has its own orthonormal R. Z combines the columns of R to motions of the whole
 /// body.
-void CoarseSpace::set_body_modes(const std::vector<SubdomainSystem> &systems)
+void CoarseSpace::set_body_modes(const std::vector<qp::MultiVector> &Z)
 {
   const SubdomainTable &table = pattern.table;
   const unsigned int    m     = table.n_modes;
-  // Each rank fills in its subdomains, and the sum over ranks adds zeros, which is exact.
+  // Each rank fills in its clusters, and the sum over ranks adds zeros, which is exact.
   modes = qp::MultiVector(table.n_kernel(), table.n_bodies() * m);
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    for (unsigned int i = 0; i < m; ++i)
+  for (unsigned int s = 0; s < Z.size(); ++s)
+    for (unsigned int i = 0; i < Z[s].n_rows(); ++i)
       for (unsigned int j = 0; j < m; ++j)
-        modes((table.first + s) * m + i, table.body[table.first + s] * m + j) = systems[s].Z(i, j);
+        modes(table.cluster_of(table.first + s) * m + i, table.body[table.first + s] * m + j) =
+          Z[s](i, j);
   pattern.sum(modes);
   // Z (Z'Z)^{-1/2} is orthonormal, and each body keeps its own columns.
   const qp::MultiVector            products = transpose_times(modes, modes);
@@ -232,16 +236,16 @@ CoarseSpace::NearKernel CoarseSpace::near_kernel(const CsrMatrix &A) const
 /// Each rank adds the products of its owned rows. The sum makes coarse vectors equal on all ranks.
 qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x) const
 {
-  const unsigned int m          = pattern.table.n_modes;
-  const auto        &start      = pattern.block_start;
-  const auto        &subdomains = pattern.block_subdomain;
+  const unsigned int m        = pattern.table.n_modes;
+  const auto        &start    = pattern.block_start;
+  const auto        &clusters = pattern.block_cluster;
   qp::MultiVector    c(pattern.table.n_kernel(), x.n_columns());
   if (x.n_columns() == 1)
     for (unsigned int row = 0; row < layout.n_owned(); ++row)
       for (unsigned int b = start[row]; b < start[row + 1]; ++b)
         {
           const double *G   = &blocks[std::size_t(b) * m];
-          double       *c_s = c.column(0) + subdomains[b] * m;
+          double       *c_s = c.column(0) + clusters[b] * m;
           for (unsigned int i = 0; i < m; ++i)
             c_s[i] += G[i] * x(row);
         }
@@ -253,7 +257,7 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x) const
         for (unsigned int row = 0; row < layout.n_owned(); ++row)
           for (unsigned int b = start[row]; b < start[row + 1]; ++b)
             for (unsigned int i = 0; i < m; ++i)
-              Columns::add(blocks[std::size_t(b) * m + i], from[row], to[subdomains[b] * m + i]);
+              Columns::add(blocks[std::size_t(b) * m + i], from[row], to[clusters[b] * m + i]);
         to.unpack(c);
       }
   pattern.sum(c);
@@ -263,16 +267,16 @@ qp::MultiVector CoarseSpace::multiply(const qp::MultiVector &x) const
 /// No communication is needed: alpha is on all ranks, and G is needed on owned rows only.
 qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha) const
 {
-  const unsigned int m          = pattern.table.n_modes;
-  const auto        &start      = pattern.block_start;
-  const auto        &subdomains = pattern.block_subdomain;
+  const unsigned int m        = pattern.table.n_modes;
+  const auto        &start    = pattern.block_start;
+  const auto        &clusters = pattern.block_cluster;
   qp::MultiVector    y(layout.n_owned(), alpha.n_columns());
   if (alpha.n_columns() == 1)
     for (unsigned int row = 0; row < layout.n_owned(); ++row)
       for (unsigned int b = start[row]; b < start[row + 1]; ++b)
         {
           const double *G       = &blocks[std::size_t(b) * m];
-          const double *alpha_s = alpha.column(0) + subdomains[b] * m;
+          const double *alpha_s = alpha.column(0) + clusters[b] * m;
           for (unsigned int i = 0; i < m; ++i)
             y(row) += G[i] * alpha_s[i];
         }
@@ -284,7 +288,7 @@ qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha) co
         for (unsigned int row = 0; row < layout.n_owned(); ++row)
           for (unsigned int b = start[row]; b < start[row + 1]; ++b)
             for (unsigned int i = 0; i < m; ++i)
-              Columns::add(blocks[std::size_t(b) * m + i], from[subdomains[b] * m + i], to[row]);
+              Columns::add(blocks[std::size_t(b) * m + i], from[clusters[b] * m + i], to[row]);
         to.unpack(y);
       }
   return y;

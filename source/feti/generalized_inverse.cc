@@ -64,13 +64,18 @@ qp::MultiVector rounded_rows(const qp::MultiVector &R, const std::vector<unsigne
 
 void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::MultiVector &rows)
 {
+  const double mean = A.mean_diagonal();
+  fix_kernel(A, f, rows, mean > 0. ? mean : 1.);
+}
+
+void fix_kernel(CsrMatrix                       &A,
+                const std::vector<unsigned int> &f,
+                const qp::MultiVector           &rows,
+                const double                     rho)
+{
   const auto n = rows.n_rows(), r = rows.n_columns();
   if (r == 0)
     return;
-  // Take rho of the size of A: a much smaller rho loses digits of A^+, and a much larger one
-  // worsens the condition number. Neither changes A A^+ A = A. If A is zero, any rho is valid: this
-  // occurs where no row is left, for bodies in one piece that nothing holds or touches.
-  const double                     mean = A.mean_diagonal(), rho = mean > 0. ? mean : 1.;
   dealii::LAPACKFullMatrix<double> N_f(n, r), N_f_transposed(r, n), gram(r, r), Q(n, n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < r; ++j)

@@ -1,4 +1,3 @@
-#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/feti/jump_operator.h>
 
@@ -123,19 +122,6 @@ JumpColumn column(const RowLayout                 &layout,
   return result;
 }
 } // namespace
-
-SubdomainRanks::SubdomainRanks(const unsigned int first, MPI_Comm comm)
-  : first_of_rank(all_gather(comm, first))
-{}
-
-unsigned int SubdomainRanks::operator()(const unsigned int subdomain) const
-{
-  // A rank without subdomains has the same first id as the next rank. The last rank with this id
-  // therefore holds the subdomain.
-  return narrow<unsigned int>(
-    std::upper_bound(first_of_rank.begin(), first_of_rank.end(), subdomain) -
-    first_of_rank.begin() - 1);
-}
 
 /// The owner of a group's rows has all its data and sends the columns to the subdomains' ranks.
 std::vector<JumpColumns> jump_operator(const RowLayout           &layout,

@@ -20,7 +20,8 @@ std::string name_of_subdomain(const SubdomainTable &table, unsigned int id)
 bool DualStructure::seeks_soft_modes(const std::vector<SubdomainSystem> &systems) const
 {
   if (parameters.preconditioner == Preconditioner::none ||
-      parameters.soft_modes == SoftModesOf::none)
+      parameters.soft_modes == SoftModesOf::none ||
+      (clusters.any() && !coarse.table.compares_soft_modes))
     return false;
   bool slender = parameters.soft_modes == SoftModesOf::all;
   for (const SubdomainSystem &system : systems)
@@ -46,21 +47,24 @@ Linearization::Linearization(const DualStructure                &the_structure,
     const RunContext::Timer timer(context(), "solve");
     entries = gather_entries();
     // G and G G' follow B, 1/D and their products with R.
-    coarse_space = std::make_unique<CoarseSpace>(structure.coarse, entries, 2, systems);
+    std::vector<qp::MultiVector> Z;
+    for (unsigned int s = 0; s < systems.size(); ++s)
+      Z.push_back(clustered() ? operators.clusters->body_modes(s) : systems[s].Z);
+    coarse_space = std::make_unique<CoarseSpace>(structure.coarse, entries, 2, Z);
     throw_collectively(context().communicator(), [&]() {
       gram = std::make_unique<RowGram>(structure.gram, entries, 2 + table().n_modes, ground);
     });
     weight_rows();
   }
   const RunContext::Timer timer(context(), "soft modes");
-  auto &[factors, soft_modes, vectors] = operators;
+  auto &[factors, joints, clusters, soft_modes, vectors] = operators;
   if (!soft_modes)
     soft_modes = std::make_shared<const DeflationStructure>(structure.coarse,
                                                             narrow<unsigned int>(systems.size()),
                                                             find_soft_modes(entries),
                                                             structure.parameters.coarse_ranks,
                                                             rows_of_soft_modes());
-  if (soft_modes->n_vectors == 0)
+  if (soft_modes->n_vectors == 0 || clustered())
     return;
   if (!vectors)
     vectors = std::make_shared<const DeflationVectors>(*soft_modes, systems, rows, factors);
@@ -80,6 +84,17 @@ void Linearization::factorize()
                                                    structure.cache,
                                                    name_of_subdomain(table(), table().first + s));
   });
+  if (!clustered() || operators.clusters)
+    return;
+  const RunContext::Timer timer(context(), "factorization");
+  operators.clusters = std::make_shared<const ClusterInverse>(structure.clusters, table(), systems,
+                                                              operators.factors, operators.joints);
+}
+
+/// Return the rigid modes of the cluster of a subdomain of this rank, on its unknowns.
+const qp::MultiVector &Linearization::rigid_modes(const unsigned int s) const
+{
+  return clustered() ? operators.clusters->rigid_modes(s) : systems[s].R;
 }
 
 /// Send B, 1/D and B R of each entry to the owner of its row. 1/D is one for scaling by
@@ -94,7 +109,7 @@ std::vector<double> Linearization::gather_entries()
         values.push_back(entry.value);
         values.push_back(systems[s].compliance(entry.dof));
         for (unsigned int mode = 0; mode < table().n_modes; ++mode)
-          values.push_back(entry.value * systems[s].R(entry.dof, mode));
+          values.push_back(entry.value * rigid_modes(s)(entry.dof, mode));
       }
   auto        gathered = layout().gather_entries(width, values);
   const auto &start    = layout().entry_start();
@@ -261,8 +276,17 @@ PrimalVectors Linearization::multiply_Bt(const qp::MultiVector &lambda) const
   return v;
 }
 
-/// No communication is needed: each subdomain is solved on its rank.
 PrimalVectors Linearization::apply_inverse(const PrimalVectors &right_hand_side) const
+{
+  PrimalVectors x = solve_subdomains(right_hand_side);
+  if (clustered())
+    operators.clusters->join(right_hand_side, x);
+  return x;
+}
+
+/// Return K^+ of each subdomain by itself. No communication is needed: each subdomain is solved on
+/// its rank.
+PrimalVectors Linearization::solve_subdomains(const PrimalVectors &right_hand_side) const
 {
   PrimalVectors x(right_hand_side.n_columns());
   for (unsigned int s = 0; s < systems.size(); ++s)
@@ -281,21 +305,50 @@ qp::MultiVector Linearization::rigid_part(const PrimalVectors &b) const
     for (unsigned int j = 0; j < k; ++j)
       for (unsigned int mode = 0; mode < m; ++mode)
         for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
-          result((table().first + s) * m + mode, j) += systems[s].R(i, mode) * b[s](i, j);
+          result(table().cluster_of(table().first + s) * m + mode, j) +=
+            rigid_modes(s)(i, mode) * b[s](i, j);
   structure.coarse.sum(result);
   return result;
 }
 
-PrimalVectors Linearization::recover(PrimalVectors          b,
-                                     const qp::MultiVector &lambda,
-                                     const qp::MultiVector &alpha) const
+PrimalVectors
+Linearization::recover(PrimalVectors b, qp::MultiVector &lambda, const qp::MultiVector &alpha) const
 {
   // K^+ (b - B' lambda) solves the equations of a subdomain only if e = G lambda. With K_rho, an
   // unbalanced rest loads the fixing nodes.
   b.add(-1., multiply_Bt(lambda));
-  PrimalVectors u = apply_inverse(b);
+  PrimalVectors u = solve_subdomains(b);
+  if (clustered())
+    {
+      const auto mu = operators.clusters->join(b, u);
+      lambda.add(1., gluing_forces(operators.clusters->forces(mu, b.n_columns())));
+    }
   add_rigid(alpha, u);
   return u;
+}
+
+/// Return the multipliers of the gluing rows whose forces on the unknowns are @p forces. Forces of
+/// joints are such forces, because joints are combinations of gluing rows: B' lambda = forces has
+/// the solution lambda = W^-1 B D^-1 forces with W = B D^-1 B'.
+qp::MultiVector Linearization::gluing_forces(const PrimalVectors &forces) const
+{
+  const unsigned int k = forces.n_columns();
+  qp::MultiVector    local(layout().n_local(), k);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      auto weighted = rows[s];
+      for (BEntry &entry : weighted)
+        if (structure.parameters.scaling == Scaling::stiffness)
+          entry.value *= systems[s].compliance(entry.dof);
+      add_product(weighted, forces[s], local);
+    }
+  auto                                   lambda = layout().to_owned(local);
+  std::unique_ptr<const RowGram::Factor> factor;
+  throw_collectively(context().communicator(), [&]() {
+    factor = std::make_unique<RowGram::Factor>(*gram, rows_of_soft_modes());
+  });
+  factor->solve(lambda);
+  return lambda;
 }
 
 void Linearization::add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const
@@ -305,9 +358,9 @@ void Linearization::add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) co
     for (unsigned int j = 0; j < u[s].n_columns(); ++j)
       for (unsigned int mode = 0; mode < m; ++mode)
         {
-          const double amplitude = alpha((table().first + s) * m + mode, j);
+          const double amplitude = alpha(table().cluster_of(table().first + s) * m + mode, j);
           for (unsigned int i = 0; i < systems[s].n_dofs(); ++i)
-            u[s](i, j) += systems[s].R(i, mode) * amplitude;
+            u[s](i, j) += rigid_modes(s)(i, mode) * amplitude;
         }
 }
 

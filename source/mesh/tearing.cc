@@ -29,7 +29,7 @@ std::vector<unsigned int> reached_nodes(const BodyMesh<dim>             &mesh,
 /// to each other, and the kernel of the stiffness matrix would be larger than the rigid motions,
 /// which are the kernel given to FETI.
 template <int dim>
-Tearing tear(const BodyMesh<dim> &mesh)
+Tearing tear(const BodyMesh<dim> &mesh, const unsigned int cluster_edge)
 {
   Tearing tearing;
   for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
@@ -62,9 +62,10 @@ Tearing tear(const BodyMesh<dim> &mesh)
   tearing.n_global = tearing.first_id_of_rank.back();
   tearing.first_id =
     tearing.first_id_of_rank[dealii::Utilities::MPI::this_mpi_process(mesh.communicator())];
+  tearing.clusters = find_clusters(mesh, tearing, cluster_edge);
   return tearing;
 }
 
-template Tearing tear(const BodyMesh<2> &);
-template Tearing tear(const BodyMesh<3> &);
+template Tearing tear(const BodyMesh<2> &, unsigned int);
+template Tearing tear(const BodyMesh<3> &, unsigned int);
 } // namespace snug::mesh

@@ -162,6 +162,7 @@ void StateProblem<dim>::forget()
   slips_before.assign(model.load_cases.size(), {});
   for (auto &at : problems)
     at->linearization.reset();
+  shared.clusters.reset();
   shared.deflation.reset();
   present.positions.clear();
 }
@@ -268,7 +269,10 @@ void StateProblem<dim>::go_to(const Field &x)
   // to the cache, which keeps their symbolic parts.
   for (unsigned int s = 0; s < systems.size(); ++s)
     if (moved[s])
-      shared.factors[s].reset();
+      {
+        shared.factors[s].reset();
+        shared.joints[s].reset();
+      }
   present.least_scaled_jacobian =
     dealii::Utilities::MPI::min(*std::min_element(jacobians.begin(), jacobians.end()),
                                 context.communicator());
@@ -308,6 +312,13 @@ void StateProblem<dim>::set(const Field               &x,
     {
       go_to(paired_at);
       linearize(first);
+      if (first.linearization->prefers_subdomains())
+        {
+          tearing.clusters = {};
+          glue(Field(paired_at));
+          go_to(paired_at);
+          linearize(first);
+        }
     }
   go_to(x);
   linearize(first);

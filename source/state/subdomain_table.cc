@@ -19,6 +19,28 @@ feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim> &mesh,
   // Each subdomain has one rank, and the other ranks contribute 0, so the maximum is its body.
   MPI_Allreduce(MPI_IN_PLACE, table.body.data(), table.body.size(), MPI_UNSIGNED, MPI_MAX,
                 mesh.communicator());
+  if (tearing.clusters.of_subdomain.empty())
+    return table;
+  table.compares_soft_modes = !tearing.clusters.is_chosen;
+  table.clusters            = tearing.clusters.of_subdomain;
+  for (unsigned int s = 0; s < table.clusters.size(); ++s)
+    if (table.clusters[s] == table.first_subdomains.size())
+      table.first_subdomains.push_back(s);
+  // The motion of a reference point is a cluster by itself.
+  for (auto s = narrow<unsigned int>(table.clusters.size()); s < tearing.n_global; ++s)
+    {
+      table.clusters.push_back(narrow<unsigned int>(table.first_subdomains.size()));
+      table.first_subdomains.push_back(s);
+    }
+  table.joints.resize(tearing.subdomains.size());
+  for (unsigned int s = 0; s < tearing.clusters.joints.size(); ++s)
+    for (const auto &joint : tearing.clusters.joints[s])
+      {
+        table.joints[s].push_back({joint.other, {}});
+        for (const unsigned int node : joint.nodes)
+          for (unsigned int c = 0; c < dim; ++c)
+            table.joints[s].back().dofs.push_back(dim * node + c);
+      }
   return table;
 }
 

@@ -69,7 +69,7 @@ void Torn::solve()
   do
     {
       parameters.relative_tolerance *= margin;
-      const auto dual =
+      auto dual =
         choose(qp::solver_table(), parameters.method).make(parameters)->solve(*problem, start);
       const auto u = linearization->recover(problem->loads(), dual.lambda, dual.amplitudes);
       error        = state::certify(*problem, dual.lambda, u).worst();

@@ -7,25 +7,55 @@
 #include <snug/feti/subdomain_system.h>
 
 namespace snug::feti {
-/// Body of every subdomain, equal on all ranks.
+/// Body and cluster of every subdomain, equal on all ranks, and the joints of the subdomains of
+/// this rank.
 struct SubdomainTable
 {
+  /// The unknowns that a subdomain shares with another subdomain of its cluster, ordered alike in
+  /// both. Their motions determine a rigid motion.
+  struct Joint
+  {
+    unsigned int              other; ///< global id of the other subdomain
+    std::vector<unsigned int> dofs;
+  };
+
   unsigned int              n_modes = 0; ///< number of rigid modes of each subdomain
   unsigned int              first   = 0; ///< global id of the first subdomain of this rank
   std::vector<unsigned int> body;        ///< body of each global subdomain
   std::vector<std::string>  body_names;
   unsigned int              n_rigid = 0; ///< number of subdomains without stiffness, the last ones
+  /// cluster of each global subdomain, in the order of their first subdomains; empty if every
+  /// subdomain is a cluster
+  std::vector<unsigned int>       clusters;
+  std::vector<unsigned int>       first_subdomains; ///< of the clusters, if they have several
+  std::vector<std::vector<Joint>> joints;           ///< of each subdomain of this rank, by other
+  /// whether soft modes are found although clusters cannot use them, because the clusters were not
+  /// chosen by the user, see Linearization::prefers_subdomains()
+  bool compares_soft_modes = false;
+
+  unsigned int cluster_of(unsigned int subdomain) const
+  {
+    return clusters.empty() ? subdomain : clusters[subdomain];
+  }
+  unsigned int first_of_cluster(unsigned int cluster) const
+  {
+    return clusters.empty() ? cluster : first_subdomains[cluster];
+  }
+  unsigned int n_clusters() const
+  {
+    return narrow<unsigned int>(clusters.empty() ? body.size() : first_subdomains.size());
+  }
 
   /// Return whether a global subdomain has no stiffness (SubdomainSystem::is_rigid()).
   bool is_rigid(unsigned int subdomain) const { return subdomain + n_rigid >= body.size(); }
 
-  unsigned int n_kernel() const { return narrow<unsigned int>(body.size()) * n_modes; }
+  unsigned int n_kernel() const { return n_clusters() * n_modes; }
 
   unsigned int n_bodies() const { return narrow<unsigned int>(body_names.size()); }
 };
 
 /**
- * This class describes coarse vectors, which have n_modes numbers per subdomain, and the structure
+ * This class describes coarse vectors, which have n_modes numbers per cluster, and the structure
  * of the matrices on them: the blocks of G, the pattern of G G', and the entries of G G' to which
  * contact rows contribute. It belongs to a pairing. Coarse vectors are equal on all ranks.
  */
@@ -45,9 +75,9 @@ public:
   const RowLayout          &layout;
   const SubdomainTable      table;
   std::vector<unsigned int> block_start;     ///< first block of each owned row
-  std::vector<unsigned int> block_subdomain; ///< subdomain of each block
+  std::vector<unsigned int> block_cluster;   ///< cluster of each block
   std::vector<unsigned int> block_of_entry;  ///< block of each gathered entry
-  std::vector<unsigned int> representatives; ///< coarse coordinates of one subdomain per body
+  std::vector<unsigned int> representatives; ///< coarse coordinates of one cluster per body
   /// matrix with the pattern of G G', in which the representatives of all bodies are coupled
   CsrMatrix                gram;
   std::vector<std::size_t> contact_places; ///< positions in gram to which contact rows contribute
@@ -70,13 +100,15 @@ public:
    * Compute G and the body modes. Collective.
    * @param[in] structure must outlive this object.
    * @param[in] G_entries holds, for each gathered entry of B (RowLayout), the n_modes products
-   *   B_entry * R(unknown, :), preceded by @p offset other numbers.
-   * @param[in] systems of this rank, which have Z.
+   *   B_entry * R(unknown, :), preceded by @p offset other numbers. R are the rigid modes of the
+   *   clusters.
+   * @param[in] body_modes Z of the clusters whose first subdomain is on this rank, for each
+   *   subdomain of this rank: R Z are the rigid modes of the body. Empty for other subdomains.
    */
   CoarseSpace(const CoarseStructure              &structure,
               const std::vector<double>          &G_entries,
               unsigned int                        offset,
-              const std::vector<SubdomainSystem> &systems);
+              const std::vector<qp::MultiVector> &body_modes);
 
   const CoarseStructure &structure() const { return pattern; }
 
@@ -109,7 +141,7 @@ public:
   double norm() const;
 
 private:
-  void set_body_modes(const std::vector<SubdomainSystem> &systems);
+  void set_body_modes(const std::vector<qp::MultiVector> &Z);
   void add_column(unsigned int row, const double *column, std::vector<double> &values) const;
   std::vector<double> combined_column(const qp::FrictionCone      &cone,
                                       double                       of_normal,

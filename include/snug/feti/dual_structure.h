@@ -1,7 +1,7 @@
 #ifndef snug_feti_dual_structure_h
 #define snug_feti_dual_structure_h
 
-#include <snug/feti/coarse_space.h>
+#include <snug/feti/cluster_structure.h>
 #include <snug/feti/factor_cache.h>
 #include <snug/feti/feti_parameters.h>
 #include <snug/feti/row_gram.h>
@@ -20,6 +20,7 @@ struct DualStructure
     , parameters(the_parameters)
     , cache(the_cache)
     , coarse(the_layout, table, the_parameters.coarse_ranks)
+    , clusters(coarse.table, the_layout.communicator())
     , gram(the_layout, table)
   {}
 
@@ -30,6 +31,7 @@ struct DualStructure
   const FetiParameters   parameters;
   const FactorCache     &cache;
   const CoarseStructure  coarse;
+  const ClusterStructure clusters;
   const RowGramStructure gram;
 };
 } // namespace snug::feti

@@ -11,10 +11,18 @@
 namespace snug::feti {
 /**
  * Add rho N_f (N_f' N_f)^{-1} N_f' to A on the unknowns @p f, all of which must be coupled in the
- * pattern of A. @p N_f are the rows f of the kernel N of A, and rho = mean diag A. The sum A + rho
- * Q is regular, and its inverse is a generalized inverse of the former A, because (A + rho Q) N =
- * rho N_f. Nothing is added if N has no columns.
+ * pattern of A. @p N_f are the rows f of the kernel N of A, and @p rho is of the size of A: a much
+ * smaller rho loses digits of A^+, and a much larger one worsens the condition number. The sum A +
+ * rho Q is regular, and its inverse is a generalized inverse of the former A, because (A + rho Q) N
+ * = rho N_f. Nothing is added if N has no columns.
  */
+void fix_kernel(CsrMatrix                       &A,
+                const std::vector<unsigned int> &f,
+                const qp::MultiVector           &N_f,
+                double                           rho);
+
+/// Fix the kernel with rho = mean diag A, or 1 if A is zero. A is zero where no row is left, for
+/// bodies in one piece that nothing holds or touches.
 void fix_kernel(CsrMatrix &A, const std::vector<unsigned int> &f, const qp::MultiVector &N_f);
 
 /**

@@ -3,6 +3,7 @@
 
 #include <snug/feti/coarse_space.h>
 #include <snug/feti/row_gram.h>
+#include <snug/feti/subdomain_ranks.h>
 
 namespace snug::feti {
 /**
@@ -55,20 +56,6 @@ struct JumpColumn
 
 /// Columns of one subdomain, by unknown.
 using JumpColumns = std::vector<JumpColumn>;
-
-/// This class finds the rank of a subdomain from the first subdomains of all ranks.
-class SubdomainRanks
-{
-public:
-  /// Gather @p first, the global id of the first subdomain of this rank. Collective.
-  SubdomainRanks(unsigned int first, MPI_Comm comm);
-
-  /// Return the rank that holds @p subdomain (global id).
-  unsigned int operator()(unsigned int subdomain) const;
-
-private:
-  std::vector<unsigned int> first_of_rank;
-};
 
 /// Return the columns of the jump operator for the @p n_subdomains subdomains of this rank. Their
 /// global ids begin at @p first. @p entries are B and 1/D as in RowGram, @p stride numbers apart.

@@ -1,6 +1,7 @@
 #ifndef snug_feti_linearization_h
 #define snug_feti_linearization_h
 
+#include <snug/feti/cluster_inverse.h>
 #include <snug/feti/deflation.h>
 #include <snug/feti/dual_structure.h>
 #include <snug/feti/jump_operator.h>
@@ -13,9 +14,13 @@ namespace snug::feti {
 /// be computed.
 struct SharedOperators
 {
-  explicit SharedOperators(unsigned int n_subdomains = 0) : factors(n_subdomains) {}
+  explicit SharedOperators(unsigned int n_subdomains = 0)
+    : factors(n_subdomains), joints(n_subdomains)
+  {}
 
   FactorsOfSubdomains                       factors;    ///< of the subdomains of this rank
+  JointsOfSubdomains                        joints;     ///< of the subdomains of this rank
+  std::shared_ptr<const ClusterInverse>     clusters;   ///< of the geometry
   std::shared_ptr<const DeflationStructure> soft_modes; ///< of the pairing
   std::shared_ptr<const DeflationVectors>   deflation;  ///< of the geometry
 };
@@ -27,7 +32,8 @@ struct SharedOperators
  * the preconditioner and the soft modes. D is the diagonal matrix of the compliances of springs,
  * zero on other rows. A spring acts like a further subdomain with one unknown, the stiffness 1/D
  * and no rigid motion, which is glued to the body by its row. All loads of the geometry share one
- * Linearization. Subdomains with equal matrices share one factorization.
+ * Linearization. Subdomains with equal matrices share one factorization. Where subdomains form
+ * clusters, K^+ and R are those of the clusters (ClusterInverse).
  *
  * Source: Dostál, Horák, Kučera, Commun. Numer. Meth. Engng 22 (2006).
  */
@@ -86,7 +92,7 @@ public:
   /// Return B' lambda. Collective.
   PrimalVectors multiply_Bt(const qp::MultiVector &lambda) const;
 
-  /// Return K^+ applied to primal vectors.
+  /// Return K^+ applied to primal vectors. Collective.
   PrimalVectors apply_inverse(const PrimalVectors &right_hand_side) const;
 
   /// Return R' b of primal vectors, n_kernel x k on all ranks. Collective.
@@ -96,9 +102,15 @@ public:
   /// relative to this value, however much of the rigid part cancels. Collective.
   std::vector<double> gross_rigid_part(const PrimalVectors &b) const;
 
-  /// Return u = K^+ (b - B' lambda) + R alpha. Collective.
+  /// Return u = K^+ (b - B' lambda) + R alpha. Where subdomains form clusters, add the forces of
+  /// their joints to the multipliers @p lambda of the gluing rows, so that K u = b - B' lambda
+  /// holds for every subdomain. F does not see these forces. Collective.
   PrimalVectors
-  recover(PrimalVectors b, const qp::MultiVector &lambda, const qp::MultiVector &alpha) const;
+  recover(PrimalVectors b, qp::MultiVector &lambda, const qp::MultiVector &alpha) const;
+
+  /// Return whether the soft modes of single subdomains are worth more than clusters: clusters
+  /// cannot use them, and they save more iterations than clusters cost.
+  bool prefers_subdomains() const { return clustered() && operators.soft_modes->n_vectors > 0; }
 
   /// Add R alpha to u.
   void add_rigid(const qp::MultiVector &alpha, PrimalVectors &u) const;
@@ -106,6 +118,10 @@ public:
 private:
   class FetiFreeSet;
 
+  bool                     clustered() const { return structure.clusters.any(); }
+  const qp::MultiVector   &rigid_modes(unsigned int s) const;
+  PrimalVectors            solve_subdomains(const PrimalVectors &b) const;
+  qp::MultiVector          gluing_forces(const PrimalVectors &forces) const;
   void                     factorize();
   std::vector<double>      gather_entries();
   void                     weight_ground(const std::vector<double> &entries);

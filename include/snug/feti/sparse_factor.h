@@ -20,6 +20,7 @@ enum class MatrixKind
   kplus,
   dirichlet,
   coarse,
+  clusters,
   soft_modes,
   row_gram
 };
@@ -28,6 +29,7 @@ inline Names names(MatrixKind)
   return {{"kplus", "K with fixed nodes, whose inverse is K^+"},
           {"dirichlet", "the inner unknowns of a subdomain, in the Dirichlet preconditioner"},
           {"coarse", "G G' of the rows that are free"},
+          {"clusters", "the moments of the faces in a cluster of subdomains"},
           {"soft_modes", "the coarse problem of the soft modes"},
           {"row_gram", "B D^-1 B'"}};
 }

@@ -23,6 +23,8 @@ struct TearingParameters
 {
   unsigned int subdomains = 0;      ///< target number for all bodies; 0: by size
   std::string  method     = "auto"; ///< a name of partition_table()
+  /// number of subdomains along the edge of a cluster, see find_clusters(); 0: by their number
+  unsigned int cluster_edge = 0;
   /// if true, there are at least as many subdomains as ranks, provided that there are enough
   /// cells; not an entry
   bool at_least_ranks = true;

@@ -2,6 +2,7 @@
 #define snug_mesh_tearing_h
 
 #include <snug/mesh/body_mesh.h>
+#include <snug/mesh/clusters.h>
 
 #include <vector>
 
@@ -23,14 +24,15 @@ struct Tearing
   unsigned int              n_global = 0;
   unsigned int              n_points = 0;     ///< of n_global: of reference points, the last ones
   std::vector<unsigned int> first_id_of_rank; ///< n_ranks + 1 entries
+  Clusters                  clusters;         ///< without the subdomains of reference points
 };
 
 /**
  * Tear the bodies into subdomains, which are the face-connected pieces of the parts
- * of the mesh. Collective.
+ * of the mesh, and divide the subdomains into clusters, see find_clusters(). Collective.
  */
 template <int dim>
-Tearing tear(const BodyMesh<dim> &mesh);
+Tearing tear(const BodyMesh<dim> &mesh, unsigned int cluster_edge = 0);
 } // namespace snug::mesh
 
 #endif

@@ -62,16 +62,17 @@ public:
   /// Return the data of the rows of B of a load case at @p x. Collective.
   RowCoefficients<dim> rows(const Field &x, unsigned int load_case) const;
 
-  const mesh::BodyMesh<dim>            &mesh;
-  const mesh::Tearing                   tearing; ///< with the subdomains of the reference points
-  const Model<dim>                      model;
-  RunContext                           &context;
-  std::vector<elasticity::Element<dim>> elements; ///< per body
-  elasticity::FaceLoad<dim>             face_load;
-  ResultantLoads<dim>                   resultants;
-  ConcentratedLoads<dim>                concentrated;
-  mesh::Surface<dim>                    surface;
-  Springs<dim>                          springs;
+  const mesh::BodyMesh<dim> &mesh;
+  /// with the subdomains of the reference points; without clusters where soft modes are used
+  mesh::Tearing                                        tearing;
+  const Model<dim>                                     model;
+  RunContext                                          &context;
+  std::vector<elasticity::Element<dim>>                elements; ///< per body
+  elasticity::FaceLoad<dim>                            face_load;
+  ResultantLoads<dim>                                  resultants;
+  ConcentratedLoads<dim>                               concentrated;
+  mesh::Surface<dim>                                   surface;
+  Springs<dim>                                         springs;
   std::unique_ptr<supports::DirichletConstraints<dim>> held;
   std::unique_ptr<Ties<dim>>                           ties;
   std::unique_ptr<ReferencePoints<dim>>                points;

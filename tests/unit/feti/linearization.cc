@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <unit/feti/torn_truss.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <random>
 
 namespace {
@@ -90,6 +92,76 @@ TEST_P(Trusses, DualOperatorOnTheKernelOfG)
   auto expected = truss.owned(times(F, truss.gathered(x)));
   free_set->project(expected);
   expect_near(truss.gathered(Fx), truss.gathered(expected), 1e-10);
+}
+
+/// K^+ of subdomains whose joints have equal moments: N (N'KN)^+ N' with an orthonormal basis N of
+/// the displacements without jumps of the moments.
+Matrix inverse_with_joints(const TornTruss &truss)
+{
+  const Matrix       joints = truss.joints();
+  const unsigned int n      = truss.K.m();
+  // of J'J and of K on N; the largest gap is that between zero and the others
+  const auto eigenvectors = [](const Matrix &A, bool of_zero, std::vector<double> &values) {
+    dealii::LAPACKFullMatrix<double> matrix(A.m());
+    matrix = A;
+    dealii::FullMatrix<double> vectors(A.m());
+    dealii::Vector<double>     all(A.m());
+    matrix.compute_eigenvalues_symmetric(-1e30, 1e30, 1e-14, all, vectors);
+    const double          cut = 1e-9 * all(A.m() - 1);
+    std::vector<unsigned> chosen;
+    for (unsigned int i = 0; i < A.m(); ++i)
+      if ((all(i) < cut) == of_zero)
+        chosen.push_back(i);
+    Matrix result(A.m(), chosen.size());
+    for (unsigned int j = 0; j < chosen.size(); ++j)
+      {
+        values.push_back(all(chosen[j]));
+        for (unsigned int i = 0; i < A.m(); ++i)
+          result(i, j) = vectors(i, chosen[j]);
+      }
+    return result;
+  };
+  std::vector<double> zeros, values;
+  const Matrix        N  = eigenvectors(product(transposed(joints), joints), true, zeros);
+  const Matrix        V  = eigenvectors(product(transposed(N), product(truss.K, N)), false, values);
+  Matrix              NV = product(N, V), scaled = NV;
+  EXPECT_EQ(n - values.size() - (n - N.n()), 2u * 3u); // two clusters float
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < values.size(); ++j)
+      scaled(i, j) /= values[j];
+  return product(scaled, transposed(NV));
+}
+
+TEST_P(Trusses, DualOperatorOfClusters)
+{
+  truss.clustered   = true;
+  const auto   feti = truss.make({});
+  const Matrix F    = product(truss.B, product(inverse_with_joints(truss), transposed(truss.B)));
+  const auto   free_set = feti->free_set(truss.owned(qp::RowSet(truss.n_rows(), 1)));
+  EXPECT_EQ(feti->linearization().table().n_kernel(), 6u);
+  auto x = truss.owned(random_rows(truss, 3));
+  free_set->project(x);
+  auto Fx = feti->apply(x);
+  free_set->project(Fx);
+  auto expected = truss.owned(times(F, truss.gathered(x)));
+  free_set->project(expected);
+  expect_near(truss.gathered(Fx), truss.gathered(expected), 1e-10);
+}
+
+TEST_P(Trusses, DualOperatorOfClustersIsSymmetric)
+{
+  truss.clustered  = true;
+  const auto feti  = truss.make({});
+  const auto x     = truss.owned(random_rows(truss, 4));
+  const auto xFx   = qp::inner_products(x, feti->apply(x), MPI_COMM_WORLD);
+  double     error = 0.;
+  for (unsigned int i = 0; i < 4; ++i)
+    {
+      EXPECT_GE(xFx(i, i), 0.);
+      for (unsigned int j = 0; j < 4; ++j)
+        error = std::max(error, std::abs(xFx(i, j) - xFx(j, i)));
+    }
+  EXPECT_LT(error, 1e-11 * xFx(0, 0));
 }
 
 TEST_P(Trusses, CoarseSpaceIsRB)
@@ -271,9 +343,9 @@ TEST_P(Trusses, PackagesAgree)
   expect_near(truss.gathered(mumps->apply(x)), Fx, 1e-11);
 }
 
-TEST_P(Trusses, RecoveryIsInBalance)
+/// K u = f - B' lambda for every feasible lambda and any amplitudes.
+void expect_balance(TornTruss &truss)
 {
-  // K u = f - B' lambda for every feasible lambda and any amplitudes
   const auto      feti     = truss.make({});
   const auto      free_set = feti->free_set(truss.owned(masks(truss)[0]));
   auto            lambda   = truss.owned(random_rows(truss, 1));
@@ -291,6 +363,13 @@ TEST_P(Trusses, RecoveryIsInBalance)
       for (unsigned int i = 0; i < system.n_dofs(); ++i)
         EXPECT_NEAR(residual(i), feti->loads()[s](i), 1e-10);
     }
+}
+
+TEST_P(Trusses, RecoveryIsInBalance)
+{
+  expect_balance(truss);
+  truss.clustered = true;
+  expect_balance(truss);
 }
 
 std::string truss_name(const ::testing::TestParamInfo<std::pair<bool, bool>> &info)

@@ -37,6 +37,13 @@ public:
 
   unsigned int n_rows() const { return bounded.size(); }
 
+  /// Return the moments of the faces inside the clusters, u_a - u_b along each rigid motion of the
+  /// common nodes.
+  Matrix joints() const;
+
+  /// whether the blocks of a body form a cluster
+  bool clustered = false;
+
   // The whole problem, equal on all ranks.
   std::vector<Block>                 blocks;
   std::vector<feti::SubdomainSystem> systems;
@@ -69,6 +76,8 @@ private:
   void                      glue_nodes(bool floating);
   void                      add_contacts(bool node_to_segment, double slope);
   void                      fill_dense();
+  std::vector<std::pair<unsigned int, unsigned int>> joined_blocks() const;
+  void add_clusters(feti::SubdomainTable &table) const;
 };
 
 inline TornTruss::TornTruss(bool floating, bool node_to_segment, double slope, double height)
@@ -194,6 +203,54 @@ inline void TornTruss::fill_dense()
     }
 }
 
+/// Blocks of a body with a common side.
+inline std::vector<std::pair<unsigned int, unsigned int>> TornTruss::joined_blocks() const
+{
+  return {{0, 1}, {0, 2}, {1, 3}, {2, 3}, {4, 5}};
+}
+
+inline Matrix TornTruss::joints() const
+{
+  const auto pairs = joined_blocks();
+  Matrix     result(3 * pairs.size(), start.back());
+  for (unsigned int j = 0; j < pairs.size(); ++j)
+    for (const Node &node : blocks[pairs[j].first].nodes)
+      for (const auto &[s, sign] : {std::pair(pairs[j].first, 1.), std::pair(pairs[j].second, -1.)})
+        if (blocks[pairs[j].second].slot(node) < blocks[pairs[j].second].nodes.size())
+          {
+            const auto         x     = blocks[s].position(node);
+            const unsigned int u     = start[s] + 2 * blocks[s].slot(node);
+            result(3 * j, u)         = sign;
+            result(3 * j + 1, u + 1) = sign;
+            result(3 * j + 2, u)     = -sign * x[1];
+            result(3 * j + 2, u + 1) = sign * x[0];
+          }
+  return result;
+}
+
+inline void TornTruss::add_clusters(feti::SubdomainTable &table) const
+{
+  table.clusters         = {0, 0, 0, 0, 1, 1};
+  table.first_subdomains = {0, 4};
+  for (unsigned int s = 0; s < blocks.size(); ++s)
+    {
+      if (rank_of_block(s) != static_cast<unsigned int>(rank))
+        continue;
+      table.joints.emplace_back();
+      for (unsigned int other = 0; other < blocks.size(); ++other)
+        for (const auto &[a, b] : joined_blocks())
+          if ((a == s && b == other) || (b == s && a == other))
+            {
+              table.joints.back().push_back({other, {}});
+              // both sides order the nodes alike
+              for (const Node &node : blocks[a].nodes)
+                if (blocks[b].slot(node) < blocks[b].nodes.size())
+                  for (unsigned int d = 0; d < 2; ++d)
+                    table.joints.back().back().dofs.push_back(2 * blocks[s].slot(node) + d);
+            }
+    }
+}
+
 inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiParameters &parameters)
 {
   feti::SubdomainTable table;
@@ -230,6 +287,8 @@ inline std::unique_ptr<feti::LoadedProblem> TornTruss::make(const feti::FetiPara
       mine.back().boundary.assign(boundary.begin(), boundary.end());
     }
   table.first = ids.empty() ? blocks.size() : ids[0];
+  if (clustered)
+    add_clusters(table);
   layout = std::make_unique<feti::RowLayout>(MPI_COMM_WORLD, owned(bounded), entries, table.first);
   for (unsigned int k = 0; k < mine.size(); ++k)
     for (const auto &entry : entries[k])

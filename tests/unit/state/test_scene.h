@@ -74,6 +74,7 @@ struct TestScene
   qp::SolverParameters       solver{"active set", 1e-10, 5000};
   feti::FetiParameters       feti;
   unsigned int               subdomains   = 6;
+  unsigned int               cluster_edge = 0;     ///< see mesh::find_clusters()
   bool                       punch_slides = false; ///< nothing holds it horizontally
   /// [case][body]; empty: one case with the loads of the bodies
   std::vector<std::vector<typename TestBody<dim>::Loads>> cases;
@@ -167,7 +168,7 @@ public:
            scene.degree,
            scene.idealization,
            {scene.subdomains, "grid"})
-    , tearing(mesh::tear(mesh))
+    , tearing(mesh::tear(mesh, scene.cluster_edge))
     , model(make_model(scene))
     , solver(mesh, tearing, model, mesh.reference_positions(), context)
   {}

@@ -57,10 +57,8 @@ void expect_same_contact(const Problem<dim>             &problem,
 
 /// A sliding punch is free to slide: only its forces and energies compare.
 template <int dim>
-void expect_same(const TestScene<dim> &scene)
+void expect_same(const TestScene<dim> &scene, const Untorn<dim> &untorn)
 {
-  Untorn<dim> untorn(scene);
-  untorn.solve();
   Problem<dim> problem(scene);
   const auto   state = problem.solve();
   if (!scene.punch_slides)
@@ -74,6 +72,19 @@ void expect_same(const TestScene<dim> &scene)
     }
   EXPECT_LT(state.certificate.worst(), scene.solver.relative_tolerance);
   EXPECT_GT(state.active_contacts, 0u);
+}
+
+/// Compare single subdomains, and clusters of subdomains.
+template <int dim>
+void expect_same(TestScene<dim> scene)
+{
+  Untorn<dim> untorn(scene);
+  untorn.solve();
+  expect_same(scene, untorn);
+  SCOPED_TRACE("clusters");
+  scene.subdomains   = 24;
+  scene.cluster_edge = 2;
+  expect_same(scene, untorn);
 }
 
 /// Hanging nodes on the contact surface, and nodes that a subdomain reaches

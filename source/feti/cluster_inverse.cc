@@ -1,0 +1,361 @@
+#include <snug/base/assertions.h>
+#include <snug/feti/cluster_inverse.h>
+#include <snug/feti/couplings.h>
+#include <snug/feti/subdomain_ranks.h>
+#include <snug/qp/independent_columns.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace snug::feti {
+namespace {
+using qp::MultiVector;
+
+/// Pivots below this part of the largest one mean that columns are linearly dependent.
+const double dependent_motions = 1e-10;
+
+/// Return C such that X C has orthonormal columns, for the Gram matrix @p S = X'X.
+MultiVector orthonormal(const MultiVector &S)
+{
+  auto C =
+    qp::orthonormal_combinations(S, std::vector<double>(S.n_columns(), 0.), dependent_motions);
+  SNUG_ASSERT(C.n_columns() == S.n_columns(),
+              "rigid motions of a joint or cluster are independent");
+  return C;
+}
+
+/// Return C x, the moments of all joints of a subdomain.
+MultiVector moments(const std::vector<MultiVector>           &C,
+                    const std::vector<SubdomainTable::Joint> &of_subdomain,
+                    const MultiVector                        &x)
+{
+  MultiVector  result(0, x.n_columns());
+  unsigned int n = 0;
+  for (const auto &of_joint : C)
+    n += of_joint.n_columns();
+  result             = MultiVector(n, x.n_columns());
+  unsigned int first = 0;
+  for (std::size_t j = 0; j < C.size(); ++j)
+    {
+      const auto of_joint = transpose_times(C[j], rows_of(x, of_subdomain[j].dofs));
+      for (unsigned int k = 0; k < x.n_columns(); ++k)
+        for (unsigned int i = 0; i < of_joint.n_rows(); ++i)
+          result(first + i, k) = of_joint(i, k);
+      first += of_joint.n_rows();
+    }
+  return result;
+}
+
+/// Add C' mu to @p x.
+void add_transposed_moments(const std::vector<MultiVector>           &C,
+                            const std::vector<SubdomainTable::Joint> &of_subdomain,
+                            const MultiVector                        &mu,
+                            MultiVector                              &x)
+{
+  unsigned int first = 0;
+  for (std::size_t j = 0; j < C.size(); ++j)
+    {
+      const auto &dofs = of_subdomain[j].dofs;
+      for (unsigned int k = 0; k < mu.n_columns(); ++k)
+        for (unsigned int mode = 0; mode < C[j].n_columns(); ++mode)
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            x(dofs[i], k) += C[j](i, mode) * mu(first + mode, k);
+      first += C[j].n_columns();
+    }
+}
+
+/// Return the inverse of [A, -N; -N', 0] for A = C K^+ C' and N = C R. A is a compliance, and N has
+/// no unit. They are scaled to equal size before the inversion, by the @p largest entry of A.
+MultiVector bordered_inverse(const MultiVector &A, const MultiVector &N, const double largest)
+{
+  const unsigned int k = A.n_rows(), m = N.n_columns();
+  const double       scale = std::sqrt(largest);
+  const auto         by    = [&](unsigned int i) { return i < k ? 1. / scale : scale; };
+
+  dealii::LAPACKFullMatrix<double> matrix(k + m);
+  for (unsigned int i = 0; i < k; ++i)
+    {
+      for (unsigned int j = 0; j < k; ++j)
+        matrix(i, j) = 0.5 * (A(i, j) + A(j, i)) * by(i) * by(j);
+      for (unsigned int j = 0; j < m; ++j)
+        matrix(i, k + j) = matrix(k + j, i) = -N(i, j);
+    }
+  for (unsigned int i = k; i < k + m; ++i)
+    for (unsigned int j = k; j < k + m; ++j)
+      matrix(i, j) = 0.;
+  matrix.invert();
+  MultiVector T(k + m, k + m);
+  for (unsigned int i = 0; i < k + m; ++i)
+    for (unsigned int j = 0; j < k + m; ++j)
+      T(i, j) = 0.5 * (matrix(i, j) + matrix(j, i)) * by(i) * by(j);
+  // The moments of a single joint are those of a rigid motion, which needs no forces.
+  for (unsigned int i = 0; i < k && k == m; ++i)
+    std::fill_n(T.column(i), k, 0.);
+  return T;
+}
+
+std::shared_ptr<const SubdomainJoints>
+joints_of_subdomain(const SubdomainSystem                    &system,
+                    const SubdomainFactors                   &factors,
+                    const std::vector<SubdomainTable::Joint> &joints,
+                    std::vector<MultiVector>                  motions)
+{
+  auto result    = std::make_shared<SubdomainJoints>();
+  result->C      = std::move(motions);
+  unsigned int k = 0;
+  for (const auto &of_joint : result->C)
+    k += of_joint.n_columns();
+  if (k == 0)
+    return result; // a cluster of one subdomain
+  MultiVector unit(k, k), transposed(system.n_dofs(), k);
+  for (unsigned int i = 0; i < k; ++i)
+    unit(i, i) = 1.;
+  add_transposed_moments(result->C, joints, unit, transposed);
+  result->Y = MultiVector(system.n_dofs(), k);
+  factors.inverse.apply(transposed, result->Y);
+  const auto compliance = moments(result->C, joints, result->Y);
+  for (unsigned int i = 0; i < k; ++i)
+    result->compliance = std::max(result->compliance, compliance(i, i));
+  result->T =
+    bordered_inverse(compliance, moments(result->C, joints, system.R), result->compliance);
+  return result;
+}
+
+bool are_equal(const std::vector<MultiVector> &a, const std::vector<MultiVector> &b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto &x, const auto &y) {
+    return x.n_rows() == y.n_rows() && x.n_columns() == y.n_columns() &&
+           std::equal(x.column(0), x.column(x.n_columns()), y.column(0));
+  });
+}
+
+/// Return the values column by column.
+std::vector<double> values_of(const MultiVector &x)
+{
+  return {x.column(0), x.column(x.n_columns())};
+}
+
+MultiVector from_values(const std::vector<double> &values, unsigned int n, unsigned int k)
+{
+  MultiVector x(n, k);
+  SNUG_ASSERT_EQUAL(values.size(), std::size_t(n) * k);
+  std::copy(values.begin(), values.end(), x.column(0));
+  return x;
+}
+} // namespace
+
+ClusterInverse::ClusterInverse(const ClusterStructure             &the_structure,
+                               const SubdomainTable               &the_table,
+                               const std::vector<SubdomainSystem> &the_systems,
+                               const FactorsOfSubdomains          &factors,
+                               JointsOfSubdomains                 &shared)
+  : structure(the_structure), table(the_table), systems(the_systems)
+{
+  set_rigid_modes();
+  auto motions = motions_of_faces();
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    if (!shared[s] || !are_equal(shared[s]->C, motions[s]))
+      shared[s] =
+        joints_of_subdomain(systems[s], *factors[s], table.joints[s], std::move(motions[s]));
+  joints = shared;
+  factorize();
+}
+
+/// The rigid modes of the body, R_s Z_s on each subdomain, are orthonormalized on the cluster.
+void ClusterInverse::set_rigid_modes()
+{
+  const unsigned int m = table.n_modes;
+  MultiVector        gram(table.n_clusters() * m, m);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto of_subdomain = transpose_times(systems[s].Z, systems[s].Z);
+      const auto first        = table.cluster_of(table.first + s) * m;
+      for (unsigned int j = 0; j < m; ++j)
+        for (unsigned int i = 0; i < m; ++i)
+          gram(first + i, j) += of_subdomain(i, j);
+    }
+  sum_over_ranks(gram, structure.communicator());
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const unsigned int cluster = table.cluster_of(table.first + s);
+      MultiVector        of_cluster(m, m);
+      for (unsigned int j = 0; j < m; ++j)
+        for (unsigned int i = 0; i < m; ++i)
+          of_cluster(i, j) = gram(cluster * m + i, j);
+      const auto C = orthonormal(of_cluster);
+      R.push_back(times(systems[s].R, times(systems[s].Z, C)));
+      // C' gram C = I, so that the inverse of C is C' gram.
+      Z.push_back(table.first_of_cluster(cluster) == table.first + s
+                    ? transpose_times(C, of_cluster)
+                    : MultiVector(0, m));
+    }
+}
+
+/// Return the orthonormal rigid motions of the face of each joint. The lower subdomain computes
+/// them and sends them to the other one, so that both have the same motions.
+ClusterInverse::MotionsOfFaces ClusterInverse::motions_of_faces() const
+{
+  using Key = std::pair<unsigned int, unsigned int>;
+  const SubdomainRanks rank_of(table.first, structure.communicator());
+  MotionsOfFaces       result(systems.size());
+  std::map<unsigned int, std::vector<std::pair<Key, std::vector<double>>>> out;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    for (const auto &joint : table.joints[s])
+      {
+        result[s].emplace_back();
+        if (joint.other < table.first + s)
+          continue;
+        const auto on_face = rows_of(systems[s].R, joint.dofs);
+        result[s].back()   = times(on_face, orthonormal(transpose_times(on_face, on_face)));
+        out[rank_of(joint.other)].push_back(
+          {{joint.other, table.first + s}, values_of(result[s].back())});
+      }
+  for (const auto &message : dealii::Utilities::MPI::some_to_some(structure.communicator(), out))
+    for (const auto &[key, values] : message.second)
+      {
+        const unsigned int s = key.first - table.first;
+        const auto         j = std::find_if(table.joints[s].begin(), table.joints[s].end(),
+                                            [&](const auto &joint) { return joint.other == key.second; });
+        result[s][j - table.joints[s].begin()] =
+          from_values(values, narrow<unsigned int>(j->dofs.size()), table.n_modes);
+      }
+  return result;
+}
+
+/// Sum S_c at the homes and factorize it. The rigid motions of the cluster have the moments C R.
+void ClusterInverse::factorize()
+{
+  const unsigned int                     m = table.n_modes;
+  std::vector<ClusterStructure::Numbers> of_subdomains(systems.size());
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto         N = moments(joints[s]->C, table.joints[s], R[s]);
+      const unsigned int k = N.n_rows();
+      for (unsigned int j = 0; j < k; ++j)
+        of_subdomains[s].insert(of_subdomains[s].end(), joints[s]->T.column(j),
+                                joints[s]->T.column(j) + k);
+      of_subdomains[s].insert(of_subdomains[s].end(), N.column(0), N.column(m));
+      of_subdomains[s].push_back(joints[s]->compliance);
+    }
+  const auto received =
+    structure.to_homes(of_subdomains, [m](unsigned int k) { return k * (k + m) + 1; });
+  throw_collectively(structure.communicator(), [&]() {
+    for (const auto &cluster : structure.clusters())
+      {
+        CsrMatrix sum(cluster.pattern);
+        double    stiffness = 0.;
+        for (const unsigned int i : cluster.members)
+          {
+            const auto &unknowns = structure.members()[i].unknowns;
+            stiffness += 1. / received[i].back() / static_cast<double>(cluster.members.size());
+            for (unsigned int a = 0; a < unknowns.size(); ++a)
+              for (unsigned int b = 0; b < unknowns.size(); ++b)
+                sum.values[sum.position(unknowns[a], unknowns[b])] +=
+                  received[i][std::size_t(a) * unknowns.size() + b];
+          }
+        // The first joint of the first member has the unknowns 0 to m - 1.
+        const auto               &first = structure.members()[cluster.members.front()];
+        const std::size_t         k     = first.unknowns.size();
+        const double             *N     = &received[cluster.members.front()][k * k];
+        std::vector<unsigned int> fixed(first.unknowns.begin(), first.unknowns.begin() + m);
+        MultiVector               N_fixed(m, m);
+        for (unsigned int j = 0; j < m; ++j)
+          for (unsigned int i = 0; i < m; ++i)
+            N_fixed(i, j) = N[j * k + i];
+        // S_c itself may be zero, as of two subdomains, and has then no scale.
+        fix_kernel(sum, fixed, N_fixed, stiffness);
+        S.push_back(structure.factors.factorize(sum, "the joints of a cluster of subdomains"));
+      }
+  });
+}
+
+std::vector<MultiVector> ClusterInverse::join(const PrimalVectors &b, PrimalVectors &x) const
+{
+  const unsigned int                     n_columns = b.n_columns(), m = table.n_modes;
+  std::vector<ClusterStructure::Numbers> of_subdomains(systems.size());
+  std::vector<MultiVector>               given; // [C v; -R'b] of each subdomain
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const auto         t = moments(joints[s]->C, table.joints[s], x[s]);
+      const auto         e = transpose_times(systems[s].R, b[s]);
+      const unsigned int k = t.n_rows();
+      given.emplace_back(k + m, n_columns);
+      for (unsigned int j = 0; j < n_columns && k > 0; ++j)
+        {
+          std::copy(t.column(j), t.column(j) + k, given[s].column(j));
+          for (unsigned int i = 0; i < m; ++i)
+            given[s](k + i, j) = -e(i, j);
+        }
+      if (k == 0)
+        continue;
+      const auto forces = times(joints[s]->T, given[s]);
+      for (unsigned int j = 0; j < n_columns; ++j)
+        of_subdomains[s].insert(of_subdomains[s].end(), forces.column(j), forces.column(j) + k);
+    }
+  const auto size     = [n_columns](unsigned int k) { return k * n_columns; };
+  auto       received = structure.to_homes(of_subdomains, size);
+  for (std::size_t c = 0; c < S.size(); ++c)
+    {
+      const auto &cluster = structure.clusters()[c];
+      MultiVector h(cluster.pattern->n_rows, n_columns);
+      for (const unsigned int i : cluster.members)
+        {
+          const auto &unknowns = structure.members()[i].unknowns;
+          for (unsigned int j = 0; j < n_columns; ++j)
+            for (unsigned int a = 0; a < unknowns.size(); ++a)
+              h(unknowns[a], j) += received[i][j * unknowns.size() + a];
+        }
+      MultiVector q(h.n_rows(), n_columns);
+      S[c]->solve(h, q);
+      for (const unsigned int i : cluster.members)
+        {
+          const auto &unknowns = structure.members()[i].unknowns;
+          for (unsigned int j = 0; j < n_columns; ++j)
+            for (unsigned int a = 0; a < unknowns.size(); ++a)
+              received[i][j * unknowns.size() + a] = q(unknowns[a], j);
+        }
+    }
+  const auto               q = structure.to_subdomains(received, size);
+  std::vector<MultiVector> mu;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      const unsigned int k = given[s].n_rows() - m;
+      mu.emplace_back(k, n_columns);
+      if (k == 0)
+        continue;
+      for (unsigned int j = 0; j < n_columns; ++j)
+        for (unsigned int i = 0; i < k; ++i)
+          given[s](i, j) -= q[s][std::size_t(j) * k + i];
+      const auto  both = times(joints[s]->T, given[s]);
+      MultiVector alpha(m, n_columns);
+      for (unsigned int j = 0; j < n_columns; ++j)
+        {
+          std::copy(both.column(j), both.column(j) + k, mu[s].column(j));
+          std::copy(both.column(j) + k, both.column(j) + k + m, alpha.column(j));
+        }
+      x[s].add_product(-1., joints[s]->Y, mu[s]);
+      x[s].add_product(1., systems[s].R, alpha);
+    }
+  return mu;
+}
+
+PrimalVectors ClusterInverse::forces(const std::vector<MultiVector> &mu,
+                                     const unsigned int              n_columns) const
+{
+  PrimalVectors result(n_columns);
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    {
+      result.emplace_back(systems[s].n_dofs());
+      add_transposed_moments(joints[s]->C, table.joints[s], mu[s], result.back());
+    }
+  return result;
+}
+} // namespace snug::feti
