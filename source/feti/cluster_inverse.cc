@@ -2,6 +2,7 @@
 #include <snug/feti/cluster_inverse.h>
 #include <snug/feti/couplings.h>
 #include <snug/feti/subdomain_ranks.h>
+#include <snug/qp/direction_basis.h>
 #include <snug/qp/independent_columns.h>
 
 #include <deal.II/base/mpi.h>
@@ -102,6 +103,26 @@ MultiVector bordered_inverse(const MultiVector &A, const MultiVector &N, const d
   return T;
 }
 
+/// Return the combinations w of moments that vanish for all displacements, w'C = 0, times the root
+/// of the @p largest entry of A = C K^+ C'.
+MultiVector dependent_moments(const MultiVector &A, const MultiVector &N, const double largest)
+{
+  const double cut = 1e-8; // of the largest compliance; independent moments have 1e-4 and more
+  MultiVector  sum(A.n_rows(), A.n_rows());
+  for (unsigned int i = 0; i < A.n_rows(); ++i)
+    for (unsigned int j = 0; j < A.n_rows(); ++j)
+      {
+        sum(i, j) = 0.5 * (A(i, j) + A(j, i)) / largest;
+        for (unsigned int mode = 0; mode < N.n_columns(); ++mode)
+          sum(i, j) += N(i, mode) * N(j, mode);
+      }
+  MultiVector W(A.n_rows(), 0);
+  const auto  w = qp::null_space(sum, cut);
+  W.append(w);
+  W.add(std::sqrt(largest) - 1., w);
+  return W;
+}
+
 std::shared_ptr<const SubdomainJoints>
 joints_of_subdomain(const SubdomainSystem                    &system,
                     const SubdomainFactors                   &factors,
@@ -121,11 +142,16 @@ joints_of_subdomain(const SubdomainSystem                    &system,
   add_transposed_moments(result->C, joints, unit, transposed);
   result->Y = MultiVector(system.n_dofs(), k);
   factors.inverse.apply(transposed, result->Y);
-  const auto compliance = moments(result->C, joints, result->Y);
+  auto compliance = moments(result->C, joints, result->Y);
+  result->N       = moments(result->C, joints, system.R);
   for (unsigned int i = 0; i < k; ++i)
     result->compliance = std::max(result->compliance, compliance(i, i));
-  result->T =
-    bordered_inverse(compliance, moments(result->C, joints, system.R), result->compliance);
+  result->W = dependent_moments(compliance, result->N, result->compliance);
+  for (unsigned int l = 0; l < result->W.n_columns(); ++l)
+    for (unsigned int i = 0; i < k; ++i)
+      for (unsigned int j = 0; j < k; ++j)
+        compliance(i, j) += result->W(i, l) * result->W(j, l);
+  result->T = bordered_inverse(compliance, result->N, result->compliance);
   return result;
 }
 
@@ -331,18 +357,33 @@ std::vector<MultiVector> ClusterInverse::join(const PrimalVectors &b, PrimalVect
       mu.emplace_back(k, n_columns);
       if (k == 0)
         continue;
-      for (unsigned int j = 0; j < n_columns; ++j)
-        for (unsigned int i = 0; i < k; ++i)
-          given[s](i, j) -= q[s][std::size_t(j) * k + i];
-      const auto  both = times(joints[s]->T, given[s]);
-      MultiVector alpha(m, n_columns);
-      for (unsigned int j = 0; j < n_columns; ++j)
+      // The second pass removes the rounding errors of T, after which the moments of both sides of
+      // a joint are equal. Otherwise F would be small instead of zero along the forces of joints,
+      // and iterations could not reach residuals below 1e-10.
+      for (unsigned int pass = 0; pass < 2; ++pass)
         {
-          std::copy(both.column(j), both.column(j) + k, mu[s].column(j));
-          std::copy(both.column(j) + k, both.column(j) + k + m, alpha.column(j));
+          const auto  of_x    = moments(joints[s]->C, table.joints[s], x[s]);
+          const auto  springs = times(joints[s]->W, transpose_times(joints[s]->W, mu[s]));
+          MultiVector rest(k + m, n_columns);
+          const auto  balance = transpose_times(joints[s]->N, mu[s]);
+          for (unsigned int j = 0; j < n_columns; ++j)
+            {
+              for (unsigned int i = 0; i < k; ++i)
+                rest(i, j) = of_x(i, j) - springs(i, j) - q[s][std::size_t(j) * k + i];
+              for (unsigned int i = 0; i < m; ++i)
+                rest(k + i, j) = given[s](k + i, j) + balance(i, j);
+            }
+          const auto  both = times(joints[s]->T, rest);
+          MultiVector of_joints(k, n_columns), alpha(m, n_columns);
+          for (unsigned int j = 0; j < n_columns; ++j)
+            {
+              std::copy(both.column(j), both.column(j) + k, of_joints.column(j));
+              std::copy(both.column(j) + k, both.column(j) + k + m, alpha.column(j));
+            }
+          mu[s].add(1., of_joints);
+          x[s].add_product(-1., joints[s]->Y, of_joints);
+          x[s].add_product(1., systems[s].R, alpha);
         }
-      x[s].add_product(-1., joints[s]->Y, mu[s]);
-      x[s].add_product(1., systems[s].R, alpha);
     }
   return mu;
 }

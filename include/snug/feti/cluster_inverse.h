@@ -14,7 +14,13 @@ struct SubdomainJoints
 {
   std::vector<qp::MultiVector> C; ///< transposed rows of each joint, on the unknowns of the joint
   qp::MultiVector              Y; ///< K_s^+ C_s'
-  /// inverse of [C K^+ C', -C R; -R' C', 0], (k + n_modes) square for k moments
+  qp::MultiVector              N; ///< C R
+  /// Combinations of moments that vanish for all displacements, W'C = 0, scaled by the root of the
+  /// compliance. Subdomains of few cells have some, and their moments q could not be prescribed.
+  /// Springs of the compliance W W' are therefore between the moments of the subdomain and q. They
+  /// have no force in the solution, where q are moments of displacements, and do not change it.
+  qp::MultiVector W;
+  /// inverse of [C K^+ C' + W W', -C R; -R' C', 0], (k + n_modes) square for k moments
   qp::MultiVector T;
   double          compliance = 0.; ///< largest diagonal entry of C K^+ C'
 };
