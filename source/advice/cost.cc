@@ -114,12 +114,28 @@ const double further_solve = 0.5, further_picture = 0.25;
 const double base_memory = 175.; ///< of a process [MB]
 const double start_up    = 0.4;  ///< of libraries and MPI [s]
 
+/// Return the number of clusters of subdomains, see mesh::find_clusters(). Whether soft modes keep
+/// all subdomains apart is not known.
+double expected_clusters(const scene::Scene &scene, const double subdomains)
+{
+  unsigned int edge = scene.tearing.cluster_edge;
+  if (edge == 0 && subdomains <= mesh::most_single_clusters)
+    return subdomains;
+  const auto clusters = [&]() { return subdomains / std::pow(edge, scene.dimension); };
+  for (edge = std::max(edge, scene.tearing.cluster_edge == 0 ? 2u : 1u);
+       scene.tearing.cluster_edge == 0 && clusters() > mesh::most_clusters;)
+    ++edge;
+  return clusters();
+}
+
 /// Return the F-mults of a cold solve. Subdomains that are no boxes need twice as many.
 double expected_f_mults(const scene::Scene &scene, const Counts &counts)
 {
   double result = 10. + 6. * std::log2(std::max(1., counts.subdomains));
   if (!counts.has_layers || scene.tearing.method == "METIS")
     result *= 2.;
+  if (expected_clusters(scene, counts.subdomains) < counts.subdomains)
+    result *= 1.5;
   if (scene.degree == 2)
     result *= 1.5;
   if (scene.solver.method == "SMALSE-M")
@@ -171,9 +187,10 @@ void estimate_times(const scene::Scene &scene, const Constants &of, const double
   const double       cases   = std::max<std::size_t>(1, scene.load_cases.size());
   const double       f_mults = expected_f_mults(scene, counts);
   const double       f_mult  = counts.subdomains * of.apply * std::pow(n, of.apply_power) + 1e-4;
-  // patterns and factors of the coarse problem grow faster than its size
+  // Patterns and factors of the coarse problem grow faster than its size. Clusters bound its size.
+  const double clusters = expected_clusters(scene, counts.subdomains);
   cost.setup =
-    of.setup * counts.nodes + of.subdomain * counts.subdomains * (1. + counts.subdomains / 8000.);
+    of.setup * counts.nodes + of.subdomain * (counts.subdomains + clusters * clusters / 8000.);
   cost.factorization = counts.subdomains * (of.factor * n + of.fill * std::pow(n, of.fill_power));
   // Further load cases start from the forces of the ones before them.
   cost.solve    = (1. + further_solve * (cases - 1.)) * f_mults * f_mult;

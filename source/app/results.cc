@@ -260,6 +260,7 @@ void Results<dim>::count_rows()
   const auto rows               = counted_rows();
   summary.mesh.constraints      = rows.all;
   summary.mesh.contact_rows     = rows.contact;
+  summary.mesh.clusters         = problem->solver->n_clusters();
   summary.mesh.rigid_body_modes = problem->solver->n_kernel();
 }
 

@@ -1,20 +1,13 @@
 #include <snug/base/assertions.h>
 #include <snug/feti/cluster_inverse.h>
 #include <snug/feti/couplings.h>
-#include <snug/feti/subdomain_ranks.h>
 #include <snug/qp/direction_basis.h>
 #include <snug/qp/independent_columns.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <deal.II/lac/lapack_full_matrix.h>
-
-#include <boost/serialization/utility.hpp>
-#include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace snug::feti {
 namespace {
@@ -33,43 +26,45 @@ MultiVector orthonormal(const MultiVector &S)
   return C;
 }
 
-/// Return C x, the moments of all joints of a subdomain.
-MultiVector moments(const std::vector<MultiVector>           &C,
-                    const std::vector<SubdomainTable::Joint> &of_subdomain,
-                    const MultiVector                        &x)
+using Joints = std::vector<SubdomainTable::Joint>;
+
+/// Return the number of moments of all joints of a subdomain.
+unsigned int n_moments(const Joints &joints)
 {
-  MultiVector  result(0, x.n_columns());
   unsigned int n = 0;
-  for (const auto &of_joint : C)
-    n += of_joint.n_columns();
-  result             = MultiVector(n, x.n_columns());
+  for (const auto &joint : joints)
+    n += joint.motions.n_columns();
+  return n;
+}
+
+/// Return C x, the moments of all joints of a subdomain.
+MultiVector moments(const Joints &joints, const MultiVector &x)
+{
+  MultiVector  result(n_moments(joints), x.n_columns());
   unsigned int first = 0;
-  for (std::size_t j = 0; j < C.size(); ++j)
+  for (const auto &joint : joints)
     {
-      const auto of_joint = transpose_times(C[j], rows_of(x, of_subdomain[j].dofs));
+      const auto of_joint = transpose_times(joint.motions, rows_of(x, joint.dofs));
       for (unsigned int k = 0; k < x.n_columns(); ++k)
-        for (unsigned int i = 0; i < of_joint.n_rows(); ++i)
-          result(first + i, k) = of_joint(i, k);
+        std::copy(of_joint.column(k), of_joint.column(k) + of_joint.n_rows(),
+                  result.column(k) + first);
       first += of_joint.n_rows();
     }
   return result;
 }
 
 /// Add C' mu to @p x.
-void add_transposed_moments(const std::vector<MultiVector>           &C,
-                            const std::vector<SubdomainTable::Joint> &of_subdomain,
-                            const MultiVector                        &mu,
-                            MultiVector                              &x)
+void add_transposed_moments(const Joints &joints, const MultiVector &mu, MultiVector &x)
 {
   unsigned int first = 0;
-  for (std::size_t j = 0; j < C.size(); ++j)
+  for (const auto &joint : joints)
     {
-      const auto &dofs = of_subdomain[j].dofs;
+      const auto &C = joint.motions;
       for (unsigned int k = 0; k < mu.n_columns(); ++k)
-        for (unsigned int mode = 0; mode < C[j].n_columns(); ++mode)
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            x(dofs[i], k) += C[j](i, mode) * mu(first + mode, k);
-      first += C[j].n_columns();
+        for (unsigned int l = 0; l < C.n_columns(); ++l)
+          for (unsigned int i = 0; i < joint.dofs.size(); ++i)
+            x(joint.dofs[i], k) += C(i, l) * mu(first + l, k);
+      first += C.n_columns();
     }
 }
 
@@ -123,27 +118,22 @@ MultiVector dependent_moments(const MultiVector &A, const MultiVector &N, const 
   return W;
 }
 
-std::shared_ptr<const SubdomainJoints>
-joints_of_subdomain(const SubdomainSystem                    &system,
-                    const SubdomainFactors                   &factors,
-                    const std::vector<SubdomainTable::Joint> &joints,
-                    std::vector<MultiVector>                  motions)
+std::shared_ptr<const SubdomainJoints> joints_of_subdomain(const SubdomainSystem  &system,
+                                                           const SubdomainFactors &factors,
+                                                           const Joints           &joints)
 {
-  auto result    = std::make_shared<SubdomainJoints>();
-  result->C      = std::move(motions);
-  unsigned int k = 0;
-  for (const auto &of_joint : result->C)
-    k += of_joint.n_columns();
+  auto               result = std::make_shared<SubdomainJoints>();
+  const unsigned int k      = n_moments(joints);
   if (k == 0)
     return result; // a cluster of one subdomain
   MultiVector unit(k, k), transposed(system.n_dofs(), k);
   for (unsigned int i = 0; i < k; ++i)
     unit(i, i) = 1.;
-  add_transposed_moments(result->C, joints, unit, transposed);
+  add_transposed_moments(joints, unit, transposed);
   result->Y = MultiVector(system.n_dofs(), k);
   factors.inverse.apply(transposed, result->Y);
-  auto compliance = moments(result->C, joints, result->Y);
-  result->N       = moments(result->C, joints, system.R);
+  auto compliance = moments(joints, result->Y);
+  result->N       = moments(joints, system.R);
   for (unsigned int i = 0; i < k; ++i)
     result->compliance = std::max(result->compliance, compliance(i, i));
   result->W = dependent_moments(compliance, result->N, result->compliance);
@@ -155,27 +145,6 @@ joints_of_subdomain(const SubdomainSystem                    &system,
   return result;
 }
 
-bool are_equal(const std::vector<MultiVector> &a, const std::vector<MultiVector> &b)
-{
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto &x, const auto &y) {
-    return x.n_rows() == y.n_rows() && x.n_columns() == y.n_columns() &&
-           std::equal(x.column(0), x.column(x.n_columns()), y.column(0));
-  });
-}
-
-/// Return the values column by column.
-std::vector<double> values_of(const MultiVector &x)
-{
-  return {x.column(0), x.column(x.n_columns())};
-}
-
-MultiVector from_values(const std::vector<double> &values, unsigned int n, unsigned int k)
-{
-  MultiVector x(n, k);
-  SNUG_ASSERT_EQUAL(values.size(), std::size_t(n) * k);
-  std::copy(values.begin(), values.end(), x.column(0));
-  return x;
-}
 } // namespace
 
 ClusterInverse::ClusterInverse(const ClusterStructure             &the_structure,
@@ -186,11 +155,9 @@ ClusterInverse::ClusterInverse(const ClusterStructure             &the_structure
   : structure(the_structure), table(the_table), systems(the_systems)
 {
   set_rigid_modes();
-  auto motions = motions_of_faces();
   for (unsigned int s = 0; s < systems.size(); ++s)
-    if (!shared[s] || !are_equal(shared[s]->C, motions[s]))
-      shared[s] =
-        joints_of_subdomain(systems[s], *factors[s], table.joints[s], std::move(motions[s]));
+    if (!shared[s])
+      shared[s] = joints_of_subdomain(systems[s], *factors[s], table.joints[s]);
   joints = shared;
   factorize();
 }
@@ -225,37 +192,6 @@ void ClusterInverse::set_rigid_modes()
     }
 }
 
-/// Return the orthonormal rigid motions of the face of each joint. The lower subdomain computes
-/// them and sends them to the other one, so that both have the same motions.
-ClusterInverse::MotionsOfFaces ClusterInverse::motions_of_faces() const
-{
-  using Key = std::pair<unsigned int, unsigned int>;
-  const SubdomainRanks rank_of(table.first, structure.communicator());
-  MotionsOfFaces       result(systems.size());
-  std::map<unsigned int, std::vector<std::pair<Key, std::vector<double>>>> out;
-  for (unsigned int s = 0; s < systems.size(); ++s)
-    for (const auto &joint : table.joints[s])
-      {
-        result[s].emplace_back();
-        if (joint.other < table.first + s)
-          continue;
-        const auto on_face = rows_of(systems[s].R, joint.dofs);
-        result[s].back()   = times(on_face, orthonormal(transpose_times(on_face, on_face)));
-        out[rank_of(joint.other)].push_back(
-          {{joint.other, table.first + s}, values_of(result[s].back())});
-      }
-  for (const auto &message : dealii::Utilities::MPI::some_to_some(structure.communicator(), out))
-    for (const auto &[key, values] : message.second)
-      {
-        const unsigned int s = key.first - table.first;
-        const auto         j = std::find_if(table.joints[s].begin(), table.joints[s].end(),
-                                            [&](const auto &joint) { return joint.other == key.second; });
-        result[s][j - table.joints[s].begin()] =
-          from_values(values, narrow<unsigned int>(j->dofs.size()), table.n_modes);
-      }
-  return result;
-}
-
 /// Sum S_c at the homes and factorize it. The rigid motions of the cluster have the moments C R.
 void ClusterInverse::factorize()
 {
@@ -263,7 +199,7 @@ void ClusterInverse::factorize()
   std::vector<ClusterStructure::Numbers> of_subdomains(systems.size());
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      const auto         N = moments(joints[s]->C, table.joints[s], R[s]);
+      const auto         N = moments(table.joints[s], R[s]);
       const unsigned int k = N.n_rows();
       for (unsigned int j = 0; j < k; ++j)
         of_subdomains[s].insert(of_subdomains[s].end(), joints[s]->T.column(j),
@@ -310,7 +246,7 @@ std::vector<MultiVector> ClusterInverse::join(const PrimalVectors &b, PrimalVect
   std::vector<MultiVector>               given; // [C v; -R'b] of each subdomain
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      const auto         t = moments(joints[s]->C, table.joints[s], x[s]);
+      const auto         t = moments(table.joints[s], x[s]);
       const auto         e = transpose_times(systems[s].R, b[s]);
       const unsigned int k = t.n_rows();
       given.emplace_back(k + m, n_columns);
@@ -362,7 +298,7 @@ std::vector<MultiVector> ClusterInverse::join(const PrimalVectors &b, PrimalVect
       // and iterations could not reach residuals below 1e-10.
       for (unsigned int pass = 0; pass < 2; ++pass)
         {
-          const auto  of_x    = moments(joints[s]->C, table.joints[s], x[s]);
+          const auto  of_x    = moments(table.joints[s], x[s]);
           const auto  springs = times(joints[s]->W, transpose_times(joints[s]->W, mu[s]));
           MultiVector rest(k + m, n_columns);
           const auto  balance = transpose_times(joints[s]->N, mu[s]);
@@ -395,7 +331,7 @@ PrimalVectors ClusterInverse::forces(const std::vector<MultiVector> &mu,
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
       result.emplace_back(systems[s].n_dofs());
-      add_transposed_moments(joints[s]->C, table.joints[s], mu[s], result.back());
+      add_transposed_moments(table.joints[s], mu[s], result.back());
     }
   return result;
 }

@@ -19,35 +19,40 @@ ClusterStructure::ClusterStructure(const SubdomainTable &table, MPI_Comm communi
   if (!has_joints)
     return;
   subdomain_side.n_unknowns.assign(table.joints.size(), 0);
-  const SubdomainRanks                              rank_of(table.first, comm);
-  std::map<unsigned int, std::vector<unsigned int>> own; // by home
-  // subdomain, number of joints and the other subdomains of its joints
+  const SubdomainRanks rank_of(table.first, comm);
+  std::map<unsigned int, std::vector<unsigned int>>
+    own; // by home
+         // subdomain, number of joints, and the other subdomain and number of motions of each joint
   std::map<unsigned int, std::vector<unsigned int>> out;
   for (unsigned int s = 0; s < table.joints.size(); ++s)
     {
       if (table.joints[s].empty())
         continue;
-      subdomain_side.n_unknowns[s] = narrow<unsigned int>(table.joints[s].size()) * table.n_modes;
+      for (const auto &joint : table.joints[s])
+        subdomain_side.n_unknowns[s] += joint.motions.n_columns();
       const unsigned int home = rank_of(table.first_of_cluster(table.cluster_of(table.first + s)));
       auto              &message = out[home];
       own[home].push_back(s);
       message.insert(message.end(),
                      {table.first + s, narrow<unsigned int>(table.joints[s].size())});
       for (const auto &joint : table.joints[s])
-        message.push_back(joint.other);
+        message.insert(message.end(), {joint.other, joint.motions.n_columns()});
     }
   for (auto &[rank, numbers] : own)
     subdomain_side.neighbours.push_back({narrow<int>(rank), std::move(numbers)});
   // Messages are sorted by rank, so that the members are in the order of the subdomains.
-  std::vector<std::vector<unsigned int>> others;
+  std::vector<std::vector<Other>> others;
   for (const auto &[rank, message] : dealii::Utilities::MPI::some_to_some(comm, out))
     {
       member_side.neighbours.push_back({narrow<int>(rank), {}});
-      for (std::size_t i = 0; i < message.size(); i += 2 + message[i + 1])
+      for (std::size_t i = 0; i < message.size();)
         {
           member_side.neighbours.back().numbers.push_back(narrow<unsigned int>(of_home.size()));
           of_home.push_back({message[i], {}});
-          others.emplace_back(message.begin() + i + 2, message.begin() + i + 2 + message[i + 1]);
+          others.emplace_back();
+          const std::size_t end = i + 2 + 2 * std::size_t(message[i + 1]);
+          for (i += 2; i < end; i += 2)
+            others.back().push_back({message[i], message[i + 1]});
         }
     }
   number_unknowns(others, table);
@@ -56,8 +61,8 @@ ClusterStructure::ClusterStructure(const SubdomainTable &table, MPI_Comm communi
 }
 
 /// Number the unknowns of each cluster joint by joint. The joints are ordered by their subdomains.
-void ClusterStructure::number_unknowns(const std::vector<std::vector<unsigned int>> &others,
-                                       const SubdomainTable                         &table)
+void ClusterStructure::number_unknowns(const std::vector<std::vector<Other>> &others,
+                                       const SubdomainTable                  &table)
 {
   using Pair = std::pair<unsigned int, unsigned int>;
   std::map<unsigned int, Cluster> clusters;
@@ -65,24 +70,28 @@ void ClusterStructure::number_unknowns(const std::vector<std::vector<unsigned in
     clusters[table.cluster_of(of_home[i].subdomain)].members.push_back(i);
   for (auto &[number, cluster] : clusters)
     {
-      std::map<Pair, unsigned int> joints;
-      const auto                   pair = [](unsigned int a, unsigned int b) {
+      std::map<Pair, std::pair<unsigned int, unsigned int>>
+                 joints; // number of motions, first unknown
+      const auto pair = [](unsigned int a, unsigned int b) {
         return Pair(std::min(a, b), std::max(a, b));
       };
       for (const unsigned int i : cluster.members)
-        for (const unsigned int other : others[i])
-          joints.emplace(pair(of_home[i].subdomain, other), 0);
+        for (const Other &other : others[i])
+          joints.emplace(pair(of_home[i].subdomain, other.subdomain),
+                         std::pair(other.n_motions, 0u));
       unsigned int n = 0;
-      for (auto &joint : joints)
-        joint.second = n++;
-      std::vector<std::vector<PetscInt>> rows(std::size_t(n) * table.n_modes);
+      for (auto &[key, joint] : joints)
+        {
+          joint.second = n;
+          n += joint.first;
+        }
+      std::vector<std::vector<PetscInt>> rows(n);
       for (const unsigned int i : cluster.members)
         {
           auto &unknowns = of_home[i].unknowns;
-          for (const unsigned int other : others[i])
-            for (unsigned int mode = 0; mode < table.n_modes; ++mode)
-              unknowns.push_back(joints.at(pair(of_home[i].subdomain, other)) * table.n_modes +
-                                 mode);
+          for (const Other &other : others[i])
+            for (unsigned int l = 0; l < other.n_motions; ++l)
+              unknowns.push_back(joints.at(pair(of_home[i].subdomain, other.subdomain)).second + l);
           for (const unsigned int a : unknowns)
             rows[a].insert(rows[a].end(), unknowns.begin(), unknowns.end());
         }

@@ -24,6 +24,7 @@ Json summary_part(const Summary::Mesh &mesh)
           {"cells", mesh.cells},
           {"dofs", mesh.dofs},
           {"subdomains", mesh.subdomains},
+          {"clusters", mesh.clusters},
           {"ranks", mesh.ranks},
           {"constraints", mesh.constraints},
           {"contact_rows", mesh.contact_rows},

@@ -314,6 +314,10 @@ void StateProblem<dim>::set(const Field               &x,
       linearize(first);
       if (first.linearization->prefers_subdomains())
         {
+          context.out()
+            << "subdomains are not joined to clusters, because the soft modes of single "
+               "subdomains save more iterations"
+            << std::endl;
           tearing.clusters = {};
           glue(Field(paired_at));
           go_to(paired_at);

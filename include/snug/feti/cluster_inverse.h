@@ -5,16 +5,12 @@
 #include <snug/feti/subdomain_factors.h>
 
 namespace snug::feti {
-/**
- * The joints of one subdomain s. C_s holds the moments of its displacements on the faces that it
- * shares with other subdomains of its cluster, one row for each rigid motion of a face. The rigid
- * motions of a face are orthonormal.
- */
+/// The joints of one subdomain s. C_s holds the moments of its displacements on the faces that it
+/// shares with other subdomains of its cluster, one row for each motion of a face.
 struct SubdomainJoints
 {
-  std::vector<qp::MultiVector> C; ///< transposed rows of each joint, on the unknowns of the joint
-  qp::MultiVector              Y; ///< K_s^+ C_s'
-  qp::MultiVector              N; ///< C R
+  qp::MultiVector Y; ///< K_s^+ C_s'
+  qp::MultiVector N; ///< C R
   /// Combinations of moments that vanish for all displacements, W'C = 0, scaled by the root of the
   /// compliance. Subdomains of few cells have some, and their moments q could not be prescribed.
   /// Springs of the compliance W W' are therefore between the moments of the subdomain and q. They
@@ -49,8 +45,7 @@ public:
   /**
    * Compute the equations of the joints. @p structure, @p table and @p systems must outlive this
    * object. Collective.
-   * @param[in,out] shared joints of the subdomains. Null: to be computed. Joints whose faces have
-   *   other rigid motions now are replaced.
+   * @param[in,out] shared joints of the subdomains. Null: to be computed.
    * @throws SolveError where the equations of a cluster are singular.
    */
   ClusterInverse(const ClusterStructure             &structure,
@@ -74,11 +69,8 @@ public:
   PrimalVectors forces(const std::vector<qp::MultiVector> &mu, unsigned int n_columns) const;
 
 private:
-  using MotionsOfFaces = std::vector<std::vector<qp::MultiVector>>;
-
-  void           set_rigid_modes();
-  MotionsOfFaces motions_of_faces() const;
-  void           factorize();
+  void set_rigid_modes();
+  void factorize();
 
   const ClusterStructure                          &structure;
   const SubdomainTable                            &table;

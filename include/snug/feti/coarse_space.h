@@ -11,12 +11,14 @@ namespace snug::feti {
 /// this rank.
 struct SubdomainTable
 {
-  /// The unknowns that a subdomain shares with another subdomain of its cluster, ordered alike in
-  /// both. Their motions determine a rigid motion.
+  /// The face that a subdomain shares with another subdomain of its cluster.
   struct Joint
   {
     unsigned int              other; ///< global id of the other subdomain
-    std::vector<unsigned int> dofs;
+    std::vector<unsigned int> dofs;  ///< common unknowns, ordered alike in both subdomains
+    /// orthonormal motions of the face, equal in both subdomains; the first n_modes of them
+    /// distinguish all rigid motions
+    qp::MultiVector motions;
   };
 
   unsigned int              n_modes = 0; ///< number of rigid modes of each subdomain

@@ -42,6 +42,7 @@ struct Summary
     unsigned long cells       = 0; ///< active cells of all ranks
     unsigned long dofs        = 0; ///< unknowns of the untorn bodies, without hanging nodes
     unsigned int  subdomains  = 0;
+    unsigned int  clusters    = 0; ///< of subdomains; as many as subdomains if they are not joined
     unsigned int  ranks       = 1;
     unsigned long constraints = 0, contact_rows = 0, rigid_body_modes = 0;
   };
@@ -214,7 +215,7 @@ std::string blas_warning(const Summary::Program &program);
 /// Return the member units.
 std::vector<std::pair<std::string, std::string>> summarize_units(const scene::Scene &scene);
 
-/// Return all members of Mesh except constraints, contact_rows and rigid_body_modes.
+/// Return all members of Mesh except clusters, constraints, contact_rows and rigid_body_modes.
 template <int dim>
 Summary::Mesh summarize(const mesh::BodyMesh<dim> &mesh, const mesh::Tearing &tearing);
 

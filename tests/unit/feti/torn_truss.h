@@ -241,12 +241,25 @@ inline void TornTruss::add_clusters(feti::SubdomainTable &table) const
         for (const auto &[a, b] : joined_blocks())
           if ((a == s && b == other) || (b == s && a == other))
             {
-              table.joints.back().push_back({other, {}});
+              table.joints.back().push_back({other, {}, {}});
               // both sides order the nodes alike
+              auto                            &joint = table.joints.back().back();
+              std::vector<std::vector<double>> x;
               for (const Node &node : blocks[a].nodes)
                 if (blocks[b].slot(node) < blocks[b].nodes.size())
-                  for (unsigned int d = 0; d < 2; ++d)
-                    table.joints.back().back().dofs.push_back(2 * blocks[s].slot(node) + d);
+                  {
+                    x.push_back(blocks[a].position(node));
+                    for (unsigned int d = 0; d < 2; ++d)
+                      joint.dofs.push_back(2 * blocks[s].slot(node) + d);
+                  }
+              joint.motions = qp::MultiVector(joint.dofs.size(), 3);
+              for (unsigned int i = 0; i < x.size(); ++i)
+                {
+                  joint.motions(2 * i, 0) = joint.motions(2 * i + 1, 1) = 1.;
+                  joint.motions(2 * i, 2)                               = -x[i][1];
+                  joint.motions(2 * i + 1, 2)                           = x[i][0];
+                }
+              orthonormalise(joint.motions);
             }
     }
 }

@@ -84,6 +84,8 @@ void expect_same(TestScene<dim> scene)
   SCOPED_TRACE("clusters");
   scene.subdomains   = 24;
   scene.cluster_edge = 2;
+  // Moments of joints on subdomains of one or two cells are nearly dependent, and cost digits.
+  scene.solver.relative_tolerance = 1e-9;
   expect_same(scene, untorn);
 }
 
