@@ -45,8 +45,7 @@ template <int dim>
 const std::vector<unsigned int> &Results<dim>::numbers_of_nodes()
 {
   if (!node_numbers)
-    node_numbers =
-      io::gather_mesh<dim>(*problem->mesh, problem->mesh->reference_positions()).number_of;
+    node_numbers = io::gather_node_numbers(*problem->mesh);
   return *node_numbers;
 }
 

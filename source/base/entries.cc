@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <stdexcept>
 
 namespace snug {
 namespace {
@@ -74,6 +75,19 @@ failure_reason(const Form &form, const std::vector<double> &numbers, const unsig
   return "";
 }
 } // namespace
+
+Access count_or_auto(unsigned int &number)
+{
+  return {[&number]() { return number == 0 ? "auto" : to_text(number); },
+          [&number](const std::string &text) {
+            unsigned int read = 0;
+            if (text != "auto")
+              from_text(text, read);
+            if (text != "auto" && read == 0)
+              throw std::invalid_argument("zero");
+            number = read;
+          }};
+}
 
 Form allowed(const std::string &description)
 {

@@ -1,5 +1,6 @@
 #include <snug/base/gather.h>
 #include <snug/base/narrow.h>
+#include <snug/base/rank_order.h>
 #include <snug/base/run_context.h>
 #include <snug/io/state_files.h>
 #include <snug/io/text_file.h>
@@ -7,23 +8,63 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cctype>
+#include <exception>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
 namespace snug::io {
 namespace {
 using Texts = std::vector<std::string>;
 
-/// Return the texts of @p n ranks on the first of them, nothing on the other ranks. Collective.
-std::vector<Texts> of_ranks(MPI_Comm all, const unsigned int n, const Texts &texts)
+/// The communicator of @p n consecutive ranks, freed with the object. Collective.
+class Group
 {
-  const int rank = narrow<int>(dealii::Utilities::MPI::this_mpi_process(all));
-  MPI_Comm  some;
-  MPI_Comm_split(all, rank / narrow<int>(n), rank, &some);
-  auto gathered = gather(some, texts);
-  MPI_Comm_free(&some);
-  return gathered;
+public:
+  Group(MPI_Comm all, const unsigned int n)
+  {
+    const int rank = narrow<int>(dealii::Utilities::MPI::this_mpi_process(all));
+    MPI_Comm_split(all, narrow<int>(rank / n), rank, &some);
+  }
+  ~Group() { MPI_Comm_free(&some); }
+  Group(const Group &)            = delete;
+  Group &operator=(const Group &) = delete;
+  operator MPI_Comm() const { return some; }
+
+private:
+  MPI_Comm some;
+};
+
+/// Write the pieces of a group to the file @p path on the first rank of the group, unless there are
+/// none. Return the failure on this rank, or null. Collective in the group.
+std::exception_ptr
+write_pieces(MPI_Comm group, const std::string &path, const std::string &own_piece)
+{
+  std::optional<FileInParts> file;
+  collect_in_order(group, own_piece, [&](const std::string &piece) {
+    if (!file)
+      {
+        std::error_code ignored; // the file reports the failure
+        std::filesystem::create_directory(std::filesystem::path(path).parent_path(), ignored);
+        file.emplace(path);
+        file->append(vtu_begin());
+      }
+    file->append(piece);
+  });
+  if (!file)
+    return nullptr;
+  try
+    {
+      file->append(vtu_end());
+      file->finish();
+    }
+  catch (const std::exception &)
+    {
+      return std::current_exception();
+    }
+  return nullptr;
 }
 
 /// Return the path of the file of a block, relative to the directory of the series. Names of mesh
@@ -100,6 +141,13 @@ std::string vtm(const std::vector<Block> &blocks, const std::vector<Texts> &file
 }
 } // namespace
 
+unsigned int ranks_of_a_file(const unsigned int ranks_per_file, const unsigned int n_ranks)
+{
+  const unsigned int at_least = 16, at_most_files = 16;
+  return ranks_per_file > 0 ? ranks_per_file
+                            : std::max(at_least, (n_ranks + at_most_files - 1) / at_most_files);
+}
+
 void write_state(MPI_Comm                  comm,
                  const std::string        &directory,
                  const std::string        &stem,
@@ -107,27 +155,21 @@ void write_state(MPI_Comm                  comm,
                  const std::string        &arrays,
                  const unsigned int        ranks_per_file)
 {
-  Texts own;
-  for (const auto &block : blocks)
-    own.push_back(block.piece);
-  const auto         pieces = of_ranks(comm, ranks_per_file, own);
-  const auto         files  = files_of_blocks(comm, stem, blocks, ranks_per_file);
-  const unsigned int rank   = dealii::Utilities::MPI::this_mpi_process(comm);
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+  const unsigned int n =
+    ranks_of_a_file(ranks_per_file, dealii::Utilities::MPI::n_mpi_processes(comm));
+  const auto         files = files_of_blocks(comm, stem, blocks, n);
+  std::exception_ptr failure;
+  const Group        group(comm, n);
+  for (unsigned int b = 0; b < blocks.size(); ++b)
+    {
+      const auto path = directory + '/' + block_path(stem, b, blocks[b].name, rank / n);
+      if (const auto failed = write_pieces(group, path, blocks[b].piece); !failure)
+        failure = failed;
+    }
   throw_collectively(comm, [&] {
-    for (unsigned int b = 0; b < blocks.size() && !pieces.empty(); ++b)
-      {
-        Texts of_block;
-        for (const auto &of_rank : pieces)
-          if (!of_rank[b].empty())
-            of_block.push_back(of_rank[b]);
-        if (of_block.empty())
-          continue;
-        std::error_code ignored; // the file reports the failure
-        std::filesystem::create_directory(directory + '/' + stem, ignored);
-        write_text_file(directory + '/' +
-                          block_path(stem, b, blocks[b].name, rank / ranks_per_file),
-                        vtu(of_block));
-      }
+    if (failure)
+      std::rethrow_exception(failure);
     if (rank != 0)
       return;
     Texts joined;

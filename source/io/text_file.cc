@@ -12,23 +12,45 @@
 #include <stdexcept>
 
 namespace snug::io {
+// The file beside the path is on the same file system, where rename() replaces a file in one step.
+FileInParts::FileInParts(std::string the_path) : path(std::move(the_path))
+{
+  errno = 0;
+  out.open(path + ".part", std::ios::binary);
+  keep_error();
+}
+
+void FileInParts::append(const std::string &part)
+{
+  errno = 0;
+  out.write(part.data(), static_cast<std::streamsize>(part.size()));
+  keep_error();
+}
+
+void FileInParts::finish()
+{
+  errno = 0;
+  // close() writes the last bytes to the disk, so check for errors after it.
+  out.close();
+  keep_error();
+  if (error == 0 && std::rename((path + ".part").c_str(), path.c_str()) != 0)
+    error = errno;
+  if (error != 0)
+    throw std::runtime_error("cannot write '" + path + "': " + std::strerror(error));
+}
+
+/// Keep the reason of the first failure. Streams need not set errno.
+void FileInParts::keep_error()
+{
+  if (!out && error == 0)
+    error = errno != 0 ? errno : EIO;
+}
+
 void write_text_file(const std::string &path, const std::string &text)
 {
-  // Write in the same directory, hence on the same file system, where rename() replaces a file in
-  // one step.
-  const std::string beside = path + ".part";
-  // Reset errno, because streams need not set it.
-  errno = 0;
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out.write(text.data(), text.size());
-    // close() writes the last bytes to the disk, so check for errors after it.
-    out.close();
-    if (!out)
-      throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
-  }
-  if (std::rename(beside.c_str(), path.c_str()) != 0)
-    throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
+  FileInParts file(path);
+  file.append(text);
+  file.finish();
 }
 
 std::string exact(double x)
@@ -89,7 +111,7 @@ void remove_results(const RunContext &context, const std::vector<std::string> &d
     "(solution|contact)(\\.pvd|-\\d{4,}\\.(vtm|pvtu))|"
     "(contact|ties)-\\d{4,}\\.csv|(history|gradients|load_cases)\\.csv|summary\\.json|"
     "surface\\.stl|profile\\.step|bodies\\.(msh|inp)|(profile|control-points)\\.csv|"
-    "journal\\.txt|warm-start\\.\\d+\\.[01]");
+    "journal\\.txt|warm-start\\.(\\d+\\.)?[01]");
   static const std::regex of_qp("(K|B|R|f|g|bounded|u|lambda)\\.(petsc|mtx)");
   static const std::regex states("(solution|contact)-\\d{4,}"),
     blocks("\\d{2,}-.*\\.\\d{4,}\\.vtu");

@@ -244,12 +244,14 @@ std::string pvtu(const std::string &declarations, const std::vector<std::string>
   return text + "</PUnstructuredGrid>\n</VTKFile>\n";
 }
 
-std::string vtu(const std::vector<std::string> &pieces)
+std::string vtu_begin()
 {
-  std::string text = opened("UnstructuredGrid") + "<UnstructuredGrid>\n";
-  for (const auto &piece : pieces)
-    text += piece;
-  return text + "</UnstructuredGrid>\n</VTKFile>\n";
+  return opened("UnstructuredGrid") + "<UnstructuredGrid>\n";
+}
+
+std::string vtu_end()
+{
+  return "</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 /// Return ParaView's list of time steps; file names are relative to the list.

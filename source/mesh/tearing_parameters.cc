@@ -1,37 +1,18 @@
 #include <snug/base/entries.h>
 #include <snug/mesh/partition.h>
 
-#include <stdexcept>
-
 namespace snug::mesh {
-namespace {
-/// Return how an entry reads and prints @p number, which is 0 for auto.
-Access auto_or_number(unsigned int &number)
-{
-  const auto text = [&number]() { return number == 0 ? "auto" : to_text(number); };
-  const auto read = [&number](const std::string &text) {
-    unsigned int read_number = 0;
-    if (text != "auto")
-      from_text(text, read_number);
-    if (text != "auto" && read_number == 0)
-      throw std::invalid_argument("not a number of at least 1");
-    number = read_number;
-  };
-  return {text, read};
-}
-} // namespace
-
 void TearingParameters::declare(Entries &entries)
 {
   const auto form = allowed("auto or a whole number of at least 1");
-  entries.add("Subdomains", auto_or_number(subdomains),
+  entries.add("Subdomains", count_or_auto(subdomains),
               with_meanings(form,
                             {{"auto", "number that follows from the numbers of cells and ranks"}}),
               "The target number of subdomains of all bodies on all ranks. The minimum is one per "
               "rank.");
   entries.add("Method", method, choice(names(partition_table<3>())),
               "The method that divides a body into subdomains.");
-  entries.add("Subdomains per cluster edge", auto_or_number(cluster_edge),
+  entries.add("Subdomains per cluster edge", count_or_auto(cluster_edge),
               with_meanings(
                 form,
                 {{"auto", "1 for at most 2,500 subdomains or where soft modes are found, otherwise "

@@ -1,6 +1,7 @@
 #include <snug/base/errors.h>
 #include <snug/base/run_context.h>
 #include <snug/optimization/journal.h>
+#include <snug/optimization/warm_start_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +81,7 @@ Journal::Journal(const JournalSettings &the_settings) : settings(the_settings)
 
 std::string Journal::warm_start_path(const unsigned int value) const
 {
-  return settings.directory + "/warm-start." + std::to_string(rank) + "." +
-         std::to_string(value % 2);
+  return settings.directory + "/warm-start." + std::to_string(value % 2);
 }
 
 void Journal::say(const std::string &line) const
@@ -143,7 +143,8 @@ void Journal::forget_warm_start()
 {
   std::error_code ignored;
   for (const unsigned int index : {0, 1})
-    std::filesystem::remove(warm_start_path(index), ignored);
+    if (rank == 0)
+      std::filesystem::remove(warm_start_path(index), ignored);
 }
 
 /// Load the memory of the problem that is being optimized, as it was after its first @p n values.
@@ -160,8 +161,8 @@ void Journal::load_warm_start(const DesignProblem &problem, const unsigned int n
       return;
     }
   // All ranks load their data, or none: a solver that starts warm on some ranks takes another path.
-  std::string bytes;
-  int         good = read_file(warm_start_path(n - 1), bytes) && problem.remember(bytes);
+  const auto bytes = read_warm_start(settings.communicator, warm_start_path(n - 1));
+  int        good  = bytes && problem.remember(*bytes);
   MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, settings.communicator);
   if (good)
     return;
@@ -281,17 +282,7 @@ void Journal::store(const DesignProblem &problem,
                     const bool           stores_memory)
 {
   if (problem.memory && stores_memory)
-    throw_collectively(settings.communicator, [&] {
-      // renamed when whole: a kill while writing leaves the older one
-      const std::string final_path = warm_start_path(values);
-      const std::string temporary  = final_path + ".new";
-      const bool        written =
-        bool(std::ofstream(temporary, std::ios::binary) << problem.memory() << std::flush);
-      std::error_code error;
-      std::filesystem::rename(temporary, final_path, error);
-      if (!written || error)
-        throw InputError("cannot write " + final_path);
-    });
+    write_warm_start(settings.communicator, warm_start_path(values), problem.memory);
   throw_collectively(settings.communicator, [&] {
     if (rank != 0)
       return;

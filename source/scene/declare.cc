@@ -17,15 +17,6 @@ void add_names(Entries                  &entries,
               form, meaning);
 }
 
-/// Give access to a degree, which is 0 for auto.
-Access degree_or_auto(unsigned int &degree)
-{
-  return {[&degree]() { return degree == 0 ? "auto" : std::to_string(degree); },
-          [&degree](const std::string &text) {
-            degree = text == "auto" ? 0 : static_cast<unsigned int>(std::stoul(text));
-          }};
-}
-
 void declare_general(Entries &entries, Scene &scene)
 {
   entries.add("Task", scene.task, "The kind of run.");
@@ -74,7 +65,7 @@ void declare_general(Entries &entries, Scene &scene)
   entries.add("Output directory", scene.output_directory,
               "The name of the output directory, relative to the working directory. The directory "
               "is created if it does not exist.");
-  entries.add("Element degree", degree_or_auto(scene.degree),
+  entries.add("Element degree", count_or_auto(scene.degree),
               with_meanings(choice({{"auto"}, {"1"}, {"2"}}),
                             {{"auto", "2 if a mesh file or a mesh of a CAD file has tetrahedra or "
                                       "prisms, in 2D triangles; 1 otherwise"},

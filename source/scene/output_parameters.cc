@@ -21,10 +21,12 @@ void OutputParameters::declare(Entries &entries)
     "Compression", compression, between(0., 9.),
     "The compression level of .vtu files. A value of 0 means no compression, 1 the fastest, "
     "9 the smallest files.");
-  entries.add(
-    "Ranks per file", ranks_per_file, at_least(1),
-    "The number of ranks whose cells share a file of each body and boundary. The first of "
-    "these ranks writes these files and needs memory for all of their content.");
+  entries.add("Ranks per file", count_or_auto(ranks_per_file),
+              with_meanings(allowed("auto or a whole number of at least 1"),
+                            {{"auto",
+                              "16 up to 256 ranks, then as many as make at most 16 files"}}),
+              "The number of consecutive ranks whose cells share a file of each body and boundary. "
+              "The first of these ranks writes these files.");
   entries.add(
     "Meshes", meshes,
     with_meanings(

@@ -162,6 +162,9 @@ Access access(T &value, const Separator... separator)
   return result;
 }
 
+/// Give access to a whole number, which is 0 for the text "auto".
+Access count_or_auto(unsigned int &number);
+
 /**
  * The entries of a parameter file, each bound to the variable that it sets. The class stores the
  * name, default, form, range and meaning of each entry. A parameter is declared only once, by the

@@ -16,6 +16,13 @@ struct Block
 };
 
 /**
+ * Return the number of consecutive ranks that share a file: @p ranks_per_file, or for 0 at least 16
+ * and as many as make at most 16 files. One file is easiest to use. Several files are written and
+ * read in parallel, and 16 of them are enough for a file system.
+ */
+unsigned int ranks_of_a_file(unsigned int ranks_per_file, unsigned int n_ranks);
+
+/**
  * Write one state of a series into @p directory, for ParaView:
  *
  * - STEM/NUMBER-NAME.RANKS.vtu contains the cells of one block on one group of ranks,
@@ -24,7 +31,8 @@ struct Block
  *
  * The blocks are the same on all ranks except for their pieces. Collective.
  * @param[in] arrays VtuGrid::declarations() of the blocks.
- * @param[in] ranks_per_file The number of ranks in a group. The first rank of a group writes.
+ * @param[in] ranks_per_file See ranks_of_a_file(). The first rank of a group writes. It keeps the
+ *   piece of one other rank at a time.
  * @throws std::runtime_error if a file cannot be written.
  */
 void write_state(MPI_Comm                  comm,

@@ -3,15 +3,37 @@
 
 #include <snug/base/run_context.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
 namespace snug::io {
 /**
- * Replace the file @p path by @p text. The text is written to a file beside it, which is then
- * renamed, so that a reader finds the old or the new file, never a part of a file.
- * @throws std::runtime_error naming the file and the reason.
+ * A file that is written part by part, by one rank. The parts go to a file beside it, which
+ * finish() renames, so that a reader finds the old or the new file, never a part of a file.
  */
+class FileInParts
+{
+public:
+  explicit FileInParts(std::string path);
+
+  /// Append a part. Does not throw: finish() reports a failure.
+  void append(const std::string &part);
+
+  /// Close the file and give it its name.
+  /// @throws std::runtime_error naming the file and the reason of the first failure.
+  void finish();
+
+private:
+  void keep_error();
+
+  std::string   path;
+  std::ofstream out;
+  int           error = 0; ///< as errno; 0: none
+};
+
+/// Replace the file @p path by @p text, as FileInParts does. For one rank.
+/// @throws std::runtime_error naming the file and the reason.
 void write_text_file(const std::string &path, const std::string &text);
 
 /// Return @p x with 17 significant digits, from which the same number is read.

@@ -78,8 +78,11 @@ private:
   void end_cell(std::uint8_t type, const std::vector<double> &values);
 };
 
-/// Return the VTU text of pieces with the same quantities, as those of several ranks.
-std::string vtu(const std::vector<std::string> &pieces);
+/// @name VTU text around pieces with the same quantities, as those of several ranks
+/// @{
+std::string vtu_begin();
+std::string vtu_end();
+/// @}
 
 /// Return the PVTU text that joins VTU files with the same arrays. @param[in] declarations Those of
 /// a grid with these arrays.

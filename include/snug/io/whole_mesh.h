@@ -43,6 +43,11 @@ struct WholeMesh
   std::map<unsigned int, std::set<unsigned int>> regions;
 };
 
+/// Return WholeMesh::number_of on rank 0, and nothing on other ranks. Rank 0 needs 4 bytes for each
+/// node of each cell and 36 bytes for each cell. Collective.
+template <int dim>
+std::vector<unsigned int> gather_node_numbers(const mesh::BodyMesh<dim> &mesh);
+
 /// Gather the mesh with the nodes at @p positions and nodal @p forces, which are the sums over the
 /// ranks; without forces they are zero. The result is empty on ranks other than 0. Collective.
 template <int dim>

@@ -16,7 +16,7 @@ namespace snug::optimization {
 /// This struct holds the settings of a journal.
 struct JournalSettings
 {
-  /// existing directory for journal.txt and warm-start.<rank>.<0|1>
+  /// existing directory for journal.txt and warm-start.<0|1>
   std::string directory;
   /// lines "name = value" of all settings on which results depend; a restart with another
   /// fingerprint is rejected
@@ -42,17 +42,17 @@ constexpr double replay_tolerance = 1e-6;
  * follow one another, as after a new contact search, share a journal.
  *
  * A record is complete when its last line has been written. Before the record of evaluation v is
- * written, every rank stores the memory() of the problem in warm-start.<rank>.<v % 2>. The file of
+ * written, the memory() of the problem of all ranks is stored in warm-start.<v % 2>. The file of
  * evaluation v - 1 is overwritten by evaluation v + 1 only. Therefore the last complete record
  * always has its data, and a killed run loses at most the evaluation in progress. The stored data
  * are loaded before the first evaluation that is not replayed. If the first call that is not
  * replayed is a differentiation, its design is evaluated again from the data of evaluation v - 1.
  *
- * The data are not loaded, and the log says so, if the number of ranks has changed, a file is
+ * The data are not loaded, and the log says so, if the number of ranks has changed, the file is
  * missing or truncated, or a replayed design differs from the requested design by more than
  * replay_tolerance. In the last case the records are cut there.
  *
- * Only rank 0 reads and writes journal.txt.
+ * Only rank 0 reads and writes files.
  */
 class Journal
 {

@@ -20,8 +20,8 @@ struct OutputParameters
   std::vector<std::string> fields         = {"stress",         "von_mises", "principal_stress",
                                              "region",         "subdomain", "design_displacement",
                                              "shape_gradient", "error"};
-  unsigned int             compression    = 1;  ///< compression level of zlib
-  unsigned int             ranks_per_file = 16; ///< number of ranks that share a file of the fields
+  unsigned int             compression    = 1; ///< compression level of zlib
+  unsigned int             ranks_per_file = 0; ///< number of ranks that share a file; 0: automatic
   bool                     export_qp      = false;
   std::vector<std::string> meshes         = {}; ///< formats of files of the bodies: msh, inp
   /// maximum deviation of profile.step from the design, relative to the size of a face; 0: no file

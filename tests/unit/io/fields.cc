@@ -1,4 +1,5 @@
 #include <snug/io/fields.h>
+#include <snug/io/state_files.h>
 #include <snug/io/text_file.h>
 
 #include <gtest/gtest.h>
@@ -261,10 +262,22 @@ TEST(FieldOutput, RanksShareFiles)
     MPI_Barrier(MPI_COMM_WORLD);
     return pieces;
   };
-  const auto alone = written(1), in_pairs = written(2);
+  const auto alone = written(1), in_pairs = written(2), together = written(0);
   EXPECT_NE(alone[0] + alone.back(), "");
   for (int first = 0; first < size; first += 2)
     EXPECT_EQ(in_pairs[first / 2], alone[first] + (first + 1 < size ? alone[first + 1] : ""));
+  EXPECT_EQ(together[0], std::accumulate(alone.begin(), alone.end(), std::string()));
+}
+
+TEST(FieldOutput, NumberOfFilesIsBounded)
+{
+  for (const unsigned int n_ranks : {1, 2, 16, 17, 256, 257, 1000, 1024, 100000})
+    {
+      const unsigned int n       = io::ranks_of_a_file(0, n_ranks);
+      const unsigned int n_files = (n_ranks + n - 1) / n;
+      EXPECT_EQ(n_files, n_ranks <= 256 ? (n_ranks + 15) / 16 : 16) << n_ranks;
+      EXPECT_EQ(io::ranks_of_a_file(3, n_ranks), 3u);
+    }
 }
 
 /// Boundaries have the points of their faces with the fields of their cells.

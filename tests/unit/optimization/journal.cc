@@ -322,32 +322,19 @@ TEST(Journal, OnAnotherNumberOfRanksItStartsColdAndSaysSo)
   EXPECT_EQ(third.n_replayed, 6u);
 }
 
-TEST(Journal, StartsColdTogetherIfOneRankLostItsData)
+/// Bytes that are kept of the warm-start file; -1: it is missing.
+TEST(Journal, StartsColdIfTheWarmStartIsMissingOrCutShort)
 {
-  Folder      folder;
-  WarmProblem first(folder.path);
-  run_until_killed(first, WarmProblem::Where::evaluating, 6);
-  const int loser = n_all_ranks() - 1;
-  if (this_rank() == loser)
-    std::filesystem::remove(folder.path + "/warm-start." + std::to_string(loser) + ".1");
-  WarmProblem second(folder.path, true);
-  EXPECT_NO_THROW(second.run());
-  // ranks that have theirs read and drop them
-  EXPECT_TRUE(second.began_cold);
-  EXPECT_NE(second.log.find("no warm-start data"), std::string::npos);
-}
-
-TEST(Journal, StartsColdTogetherIfTheDataOfOneRankAreCutShort)
-{
-  const int         loser = n_all_ranks() - 1;
-  const std::string name  = "/warm-start." + std::to_string(loser) + ".1";
-  for (const unsigned int kept : {0, 3})
+  for (const int kept : {-1, 0, 3, 20})
     {
       Folder      folder;
       WarmProblem first(folder.path);
       run_until_killed(first, WarmProblem::Where::evaluating, 6);
-      if (this_rank() == loser)
-        std::filesystem::resize_file(folder.path + name, kept);
+      const std::string file = folder.path + "/warm-start.1";
+      if (this_rank() == 0 && kept < 0)
+        std::filesystem::remove(file);
+      else if (this_rank() == 0)
+        std::filesystem::resize_file(file, kept);
       WarmProblem second(folder.path, true);
       EXPECT_NO_THROW(second.run());
       EXPECT_TRUE(second.began_cold);
