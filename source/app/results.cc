@@ -267,12 +267,19 @@ void Results<dim>::count_rows()
 template <int dim>
 void Results<dim>::write_summary()
 {
-  const auto &context = problem->context;
-  summary.program     = io::program_info(context);
-  summary.work        = context.total_work();
-  summary.times       = io::collect_times(context);
-  summary.memory      = io::collect_memory(context);
-  summary.warnings    = context.warnings();
+  auto &context    = problem->context;
+  summary.program  = io::program_info(context);
+  summary.work     = context.total_work();
+  summary.times    = io::collect_times(context);
+  summary.memory   = io::collect_memory(context);
+  summary.warnings = context.warnings();
+  if (context.n_ranks() > 1)
+    {
+      summary.balance = io::collect_balance(context, *problem->mesh, problem->tearing,
+                                            problem->solver->gluing(0).layout());
+      if (const auto note = io::balance_note(*summary.balance); !note.empty())
+        context.out() << note << std::endl;
+    }
   throw_collectively(context.communicator(), [&]() {
     if (context.rank() == 0)
       {

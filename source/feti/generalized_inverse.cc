@@ -117,6 +117,7 @@ void GeneralizedInverse::apply(const qp::MultiVector &b, qp::MultiVector &x) con
       return;
     }
   context.work.subdomain_solves += b.n_columns();
+  const AddedSeconds timer(context.work.subdomain_solve_seconds);
   factor->solve(b, x);
 }
 } // namespace snug::feti

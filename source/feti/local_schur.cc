@@ -106,6 +106,7 @@ qp::MultiVector LocalSchur::apply(const qp::MultiVector &x) const
   qp::MultiVector load(n_i, x.n_columns()), inner(n_i, x.n_columns());
   ib.multiply_add(1., x, load);
   context.work.subdomain_solves += x.n_columns();
+  const AddedSeconds timer(context.work.subdomain_solve_seconds);
   factor->solve(load, inner);
   ib.transpose_multiply_add(-1., inner, y);
   return y;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace snug::feti {
 namespace {
@@ -174,6 +175,34 @@ qp::MultiVector RowLayout::to_owned(const qp::MultiVector &local) const
       check(PetscSFReduceEnd(row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
     }
   return owned;
+}
+
+/// to_local() sends owned rows to the ranks of their leaves, to_owned() local rows to the ranks of
+/// their roots.
+RowLayout::Sent RowLayout::sent() const
+{
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  Sent                  result;
+  std::set<PetscMPIInt> neighbours;
+  const auto add = [&](const PetscInt n, const PetscMPIInt *ranks, const PetscInt *first) {
+    for (PetscInt i = 0; i < n; ++i)
+      if (ranks[i] != rank && first[i] < first[i + 1])
+        {
+          neighbours.insert(ranks[i]);
+          result.messages += 1;
+          result.numbers += first[i + 1] - first[i];
+        }
+  };
+  PetscInt           n;
+  const PetscMPIInt *ranks;
+  const PetscInt    *first, *unused, *unused_too;
+  check(PetscSFGetLeafRanks(row_forest, &n, &ranks, &first, &unused));
+  add(n, ranks, first);
+  check(PetscSFGetRootRanks(row_forest, &n, &ranks, &first, &unused, &unused_too));
+  add(n, ranks, first);
+  result.neighbours = narrow<unsigned int>(neighbours.size());
+  return result;
 }
 
 template <typename T>

@@ -4,7 +4,6 @@
 
 #include <sys/resource.h>
 
-#include <array>
 #include <vector>
 
 namespace snug::io {
@@ -238,16 +237,11 @@ Summary::State summarize(const state::ContactState<dim>                    &stat
           {"accuracy", errors}};
 }
 
-namespace {
-const std::array<const char *, 8> stages = {
-  {"setup", "assembly", "factorization", "soft modes", "solve", "gradient", "accuracy", "output"}};
-} // namespace
-
 Summary::Times collect_times(const RunContext &context)
 {
   // The stages are in the order of the members of Times.
   std::vector<double> seconds;
-  for (const char *stage : stages)
+  for (const char *stage : stage_names)
     seconds.push_back(context.seconds(stage));
   seconds.push_back(context.seconds());
   // Take the slowest rank of each stage, because all other ranks wait for it.
@@ -267,14 +261,14 @@ Summary::Memory collect_memory(const RunContext &context)
   MPI_Allreduce(&here, &result.largest, 1, MPI_DOUBLE, MPI_MAX, context.communicator());
   MPI_Allreduce(&here, &result.total, 1, MPI_DOUBLE, MPI_SUM, context.communicator());
   std::vector<double> of_stages(1, context.memory_at_start());
-  for (const char *stage : stages)
+  for (const char *stage : stage_names)
     of_stages.push_back(context.memory(stage));
   MPI_Allreduce(MPI_IN_PLACE, of_stages.data(), narrow<int>(of_stages.size()), MPI_DOUBLE, MPI_MAX,
                 context.communicator());
   result.stages.emplace_back("start", of_stages[0]);
-  for (unsigned int i = 0; i < stages.size(); ++i)
+  for (unsigned int i = 0; i < stage_names.size(); ++i)
     if (of_stages[i + 1] > 0.)
-      result.stages.emplace_back(stages[i], of_stages[i + 1]);
+      result.stages.emplace_back(stage_names[i], of_stages[i + 1]);
   return result;
 }
 

@@ -232,6 +232,26 @@ Json summary_part(const Summary::Memory &memory)
     stages[stage] = used;
   return {{"largest", memory.largest}, {"total", memory.total}, {"stages", stages}};
 }
+
+Json summary_part(const Spread &spread)
+{
+  return {{"least", spread.least}, {"mean", spread.mean}, {"largest", spread.largest}};
+}
+
+Json summary_part(const Balance &balance)
+{
+  Json seconds = Json::object();
+  for (const auto &[stage, spread] : balance.seconds)
+    seconds[stage] = summary_part(spread);
+  return {{"subdomains", summary_part(balance.subdomains)},
+          {"cells", summary_part(balance.cells)},
+          {"unknowns", summary_part(balance.unknowns)},
+          {"seconds", seconds},
+          {"f_mult",
+           {{"neighbours", balance.neighbours},
+            {"messages", balance.messages},
+            {"bytes", balance.bytes}}}};
+}
 } // namespace
 
 namespace {
@@ -320,8 +340,8 @@ std::string Summary::json() const
                                 {"bound", warning.bound}});
     }
   add_load_cases(load_cases, text["state"]);
-  // Add these keys only if there is a second state or load case, or a target. The keys above are
-  // always written.
+  // Add these keys only if there is a second state, load case or rank, or a target. The keys above
+  // are always written.
   if (initial_state)
     text["initial_state"] = *initial_state;
   for (const auto &load_case : load_cases)
@@ -344,6 +364,8 @@ std::string Summary::json() const
                                   {"saves", item.saves},
                                   {"error", item.error}});
     }
+  if (balance)
+    text["balance"] = summary_part(*balance);
   if (accuracy)
     text["accuracy"] = summary_part(*accuracy);
   // Replace invalid characters, because file names in messages need not be UTF-8, but JSON must be.

@@ -4,7 +4,8 @@
 A cantilever without contacts is solved to two tolerances on the same path. Between both ends, each
 F-mult is one iteration of conjugate gradients (source/qp/pcpg.cc), and each outer iteration of the
 active set goes on on the same set (source/qp/active_set.cc), so that the differences of the counts are
-exact. Counts at the start and at the end of the solve, and those of the setup, cancel."""
+exact. Counts at the start and at the end of the solve, and those of the setup, cancel. The balance in
+the summary has the messages of an F-mult, which are those of the preconditioner as well."""
 
 import pathlib
 import sys
@@ -33,16 +34,39 @@ COLLECTIVES = {"f_mults": 6, "outer_iterations": 12}
 
 
 def counts_at(program, counter, tolerance):
-    """Return the counts of work and of what was sent in the solve."""
+    """Return the counts of work and of what was sent in the solve, and the summary."""
     case = Case("beam", "tests/scenes/beam.prm",
                 [*ENTRIES, f"Solver/Relative tolerance={tolerance}"], RANKS)
     summary = summary_of(program, case, counter)
     return {**summary["work"], **summary["sent"]["solve"],
-            "outer_iterations": summary["state"]["outer_iterations"]}
+            "outer_iterations": summary["state"]["outer_iterations"]}, summary
+
+
+def wrong_balance(summary, more):
+    """Say what in the balance of the ranks is wrong."""
+    balance = summary["balance"]
+    applications = sum(more[work] for work in MESSAGES)
+    sent = {name: more[counted] / applications
+            for name, counted in (("messages", "messages"), ("bytes", "message_bytes"))}
+    for name, value in sent.items():
+        if balance["f_mult"][name] != value:
+            yield f"{balance['f_mult'][name]} {name} of an F-mult, not {value}"
+    for name, whole in (("subdomains", "subdomains"), ("cells", "cells")):
+        if balance[name]["mean"] * RANKS != summary["mesh"][whole]:
+            yield f"mean {name} of {balance[name]}"
+    spreads = {**balance["seconds"], **{name: balance[name] for name in
+                                        ("subdomains", "cells", "unknowns")}}
+    for name, spread in spreads.items():
+        # the mean of equal times is rounded
+        if not spread["least"] <= spread["mean"] * (1 + 1e-12) <= spread["largest"] * (1 + 2e-12):
+            yield f"{name} from {spread}"
+    if not {"assembly", "factorization", "solve", "subdomain solves"} <= set(spreads):
+        yield f"seconds of {sorted(spreads)}"
 
 
 def main(program, counter):
-    loose, tight = (counts_at(program, counter, tolerance) for tolerance in (1e-4, 1e-9))
+    (loose, _), (tight, summary) = (counts_at(program, counter, tolerance)
+                                    for tolerance in (1e-4, 1e-9))
     more = {name: tight[name] - loose[name] for name in tight}
     print(", ".join(f"{name} {loose[name]} to {tight[name]}" for name in (
         "f_mults", "preconditioner_applications", "outer_iterations", "messages", "collectives")))
@@ -52,6 +76,7 @@ def main(program, counter):
         if more[name] != expected:
             text = " + ".join(f"{each} x {more[work]} {work}" for work, each in of.items())
             wrong.append(f"{more[name]} more {name}, not {text} = {expected}")
+    wrong += wrong_balance(summary, more)
     print("\n".join(wrong) or "all as expected")
     return bool(wrong)
 

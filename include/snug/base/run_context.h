@@ -27,6 +27,25 @@ struct Work
   unsigned long numeric_factorizations      = 0;
   unsigned long assembled_subdomains        = 0;
   unsigned long soft_modes                  = 0; ///< found, coarse vectors of the dual problem
+  double subdomain_solve_seconds = 0.; ///< seconds of the subdomain solves of this rank alone
+};
+
+/// This class adds the wall seconds of its lifetime to a sum. It is for short work: a
+/// RunContext::Timer also reads the memory.
+class AddedSeconds
+{
+public:
+  explicit AddedSeconds(double &the_sum) : sum(the_sum), start(std::chrono::steady_clock::now()) {}
+  ~AddedSeconds()
+  {
+    sum += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  AddedSeconds(const AddedSeconds &)            = delete;
+  AddedSeconds &operator=(const AddedSeconds &) = delete;
+
+private:
+  double                               &sum;
+  std::chrono::steady_clock::time_point start;
 };
 
 /// Amount of text in the log. Each level contains the text of the levels before.
@@ -113,7 +132,7 @@ public:
   /// Return the memory in use when the context was made, that is of the libraries.
   double memory_at_start() const { return start_memory; }
 
-  /// Return the work, with this rank's counters summed over ranks. Collective.
+  /// Return the work, with this rank's counters summed over ranks, not its seconds. Collective.
   Work total_work() const;
 
   Work work;

@@ -37,6 +37,14 @@ public:
     }
   };
 
+  /// Messages from this rank to other ranks.
+  struct Sent
+  {
+    unsigned int  neighbours = 0; ///< ranks to which it sends
+    unsigned int  messages   = 0;
+    unsigned long numbers    = 0;
+  };
+
   /**
    * Set up the communication between owned rows, local rows and entries. Collective.
    * @param[in] contact_rows flag of each owned row of contact, normal or tangential.
@@ -68,6 +76,10 @@ public:
   qp::MultiVector to_local(const qp::MultiVector &owned) const;
   /// Return owned values as sums of the local values of all ranks. Collective.
   qp::MultiVector to_owned(const qp::MultiVector &local) const;
+
+  /// Return what this rank sends for to_local() and to_owned() of one column, as for a product
+  /// with F, to other ranks.
+  Sent sent() const;
 
   /**
    * Send @p width numbers per entry of B to the owner of the entry's row. @p values are ordered

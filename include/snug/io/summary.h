@@ -3,6 +3,7 @@
 
 #include <snug/advice/advice.h>
 #include <snug/base/run_context.h>
+#include <snug/io/balance.h>
 #include <snug/mesh/tearing.h>
 #include <snug/optimization/minimize.h>
 #include <snug/state/contact_state.h>
@@ -185,6 +186,7 @@ struct Summary
   std::vector<std::pair<std::string, std::string>> units;
   std::optional<Adaptation>                        accuracy; ///< adaptation to a target
   std::vector<ProfileFace>                         profile;  ///< faces of profile.step
+  std::optional<Balance>                           balance;  ///< of several ranks
 
   /// advice, if the user asked for it
   std::optional<std::vector<advice::Advice>> advice;

@@ -117,4 +117,39 @@ TEST(RowLayout, GathersEntriesInOrder)
           }
     }
 }
+
+/// A rank sends a number for each row of its own that another rank has too, and for each row of
+/// another rank that it has.
+TEST(RowLayout, CountsWhatARankSends)
+{
+  const Example example;
+  const auto    has = [&](const int of_rank, const unsigned int row) {
+    for (unsigned int s = 0; s < Example::n_subdomains; ++s)
+      if (static_cast<int>(s) >= int(Example::n_subdomains) * of_rank / example.n_ranks &&
+          static_cast<int>(s) < int(Example::n_subdomains) * (of_rank + 1) / example.n_ranks &&
+          Example::touches(row, s))
+        return true;
+    return false;
+  };
+  unsigned int neighbours = 0, messages = 0, numbers = 0;
+  for (int other = 0; other < example.n_ranks; ++other)
+    {
+      unsigned int to_its_rows = 0, to_its_copies = 0;
+      for (unsigned int row = 0; row < Example::n_rows && other != example.rank; ++row)
+        {
+          const auto owns = [&](const int r) {
+            return row >= example.first_row[r] && row < example.first_row[r + 1];
+          };
+          to_its_rows += owns(other) && has(example.rank, row);
+          to_its_copies += owns(example.rank) && has(other, row);
+        }
+      messages += (to_its_rows > 0) + (to_its_copies > 0);
+      neighbours += to_its_rows + to_its_copies > 0;
+      numbers += to_its_rows + to_its_copies;
+    }
+  const auto sent = example.layout->sent();
+  EXPECT_EQ(sent.neighbours, neighbours);
+  EXPECT_EQ(sent.messages, messages);
+  EXPECT_EQ(sent.numbers, numbers);
+}
 } // namespace

@@ -54,6 +54,39 @@ TEST(Summary, HasTheFixedKeysWhateverTheTask)
   expect_fixed_keys(Json::parse(summary.json()));
 }
 
+TEST(Summary, HasTheBalanceOfSeveralRanksOnly)
+{
+  io::Summary summary;
+  EXPECT_FALSE(Json::parse(summary.json()).contains("balance"));
+  summary.balance.emplace();
+  summary.balance->unknowns = {1., 2., 4.};
+  summary.balance->seconds  = {{"solve", {0.5, 0.5, 0.5}}};
+  summary.balance->bytes    = 80;
+  const Json json           = Json::parse(summary.json())["balance"];
+  EXPECT_EQ(json["unknowns"], Json::parse(R"({"least": 1.0, "mean": 2.0, "largest": 4.0})"));
+  EXPECT_EQ(json["seconds"]["solve"]["mean"], 0.5);
+  EXPECT_EQ(json["f_mult"]["bytes"], 80);
+}
+
+TEST(Balance, TellsWhatToDoIfItIsBad)
+{
+  io::Balance balance;
+  EXPECT_EQ(io::balance_note(balance), "");
+  balance.n_ranks      = 8;
+  balance.n_subdomains = 10;
+  balance.subdomains   = {1., 1.25, 2.};
+  balance.unknowns     = {650., 812.5, 1300.};
+  EXPECT_EQ(io::balance_note(balance),
+            "balance: a rank has 1.6 times the mean number of unknowns: use 5 ranks, which is as "
+            "fast, or set Decomposition/Subdomains to 32 or more");
+  balance.unknowns.largest = 1000.;
+  EXPECT_EQ(io::balance_note(balance), "");
+  balance.own_seconds = {0.4, 0.5, 0.9}; // may be noise
+  EXPECT_EQ(io::balance_note(balance), "");
+  balance.own_seconds = {4., 5., 9.};
+  EXPECT_NE(io::balance_note(balance).find("core of its own"), std::string::npos);
+}
+
 TEST(Summary, NumbersReadBackBitForBit)
 {
   io::Summary            summary;
