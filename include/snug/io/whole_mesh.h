@@ -43,8 +43,8 @@ struct WholeMesh
   std::map<unsigned int, std::set<unsigned int>> regions;
 };
 
-/// Return WholeMesh::number_of on rank 0, and nothing on other ranks. Rank 0 needs 4 bytes for each
-/// node of each cell and 36 bytes for each cell. Collective.
+/// Return WholeMesh::number_of on rank 0, and nothing on other ranks. Rank 0 needs a third of the
+/// memory of gather_mesh(). Collective.
 template <int dim>
 std::vector<unsigned int> gather_node_numbers(const mesh::BodyMesh<dim> &mesh);
 
