@@ -69,7 +69,7 @@ Counts count(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
   for (unsigned int b = 0; b < mesh.n_bodies(); ++b)
     {
       // The cells lie in layers if the body has a grid without local refinements.
-      const bool has_layers = mesh.geometry(b).has_grid() && sums[3 * b + 1] == 0.;
+      const bool has_layers = mesh.geometry(b).grid() && sums[3 * b + 1] == 0.;
       double     each       = has_layers ? by_size.compact : by_size.other;
       if (scene::is_nearly_incompressible(scene, scene.bodies[b]))
         each *= mesh::larger_subdomains(dim);

@@ -76,7 +76,7 @@ const mesh::Forest<dim> &AdaptiveMeshes<dim>::forest_with(const Refinement &refi
       forest = build_forest<dim>(the_scene, context.communicator());
       forest_cells.clear();
     }
-  const auto cells = refinement.cells<dim>(forest->coarse().places);
+  const auto cells = refinement.cells<dim>(forest->places());
   if (!std::includes(cells.begin(), cells.end(), forest_cells.begin(), forest_cells.end()))
     forest = build_forest<dim>(the_scene, context.communicator());
   forest->refine(cells);

@@ -1,4 +1,5 @@
 #include <snug/geometry/boundary_formulas.h>
+#include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/geometry/formula.h>
 #include <snug/geometry/wrapped_geometry.h>
@@ -7,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace snug::geometry {
 namespace {
@@ -90,15 +92,24 @@ public:
         added.push_back(parsed<dim>(name, text, own));
         names.push_back(name);
       }
-    mark(this->body->coarse_mesh());
+    check();
   }
 
   CoarseMesh coarse_mesh() const override
   {
-    auto mesh = this->body->coarse_mesh();
-    for (unsigned int i = 0; i < boundaries.size(); ++i)
-      mesh.boundary_faces[i].second = boundaries[i];
+    auto                       mesh = this->body->coarse_mesh();
+    std::vector<CutFaces<dim>> cut(added.size());
+    auto                       face = mesh.boundary_faces.begin();
+    for_faces(mesh, [&](const unsigned int boundary, const Corners &corners) {
+      (face++)->second = boundary_of(boundary, corners, cut);
+    });
     return mesh;
+  }
+
+  unsigned int side_boundary(const unsigned int coarse_cell, const unsigned int face) const override
+  {
+    std::vector<CutFaces<dim>> cut(added.size());
+    return boundary_of(this->body->side_boundary(coarse_cell, face), side(coarse_cell, face), cut);
   }
 
   const std::vector<std::string> &boundary_names() const override { return names; }
@@ -122,34 +133,63 @@ private:
 
   std::vector<std::string>      names;
   std::vector<NewBoundary<dim>> added;
-  std::vector<unsigned int>     boundaries; ///< of the boundary faces of the coarse mesh
 
-  /// Find the boundaries of the faces.
-  void mark(const CoarseMesh &mesh)
+  /// Return the corners of a face of a grid.
+  Corners side(const unsigned int cell, const unsigned int face) const
+  {
+    Vertices vertices(dealii::GeometryInfo<dim>::vertices_per_cell);
+    std::iota(vertices.begin(), vertices.end(), 0u);
+    Corners corners;
+    for (const unsigned int v : face_of<dim>(vertices, face))
+      corners.push_back(
+        this->body->position({cell, dealii::GeometryInfo<dim>::unit_cell_vertex(v)}));
+    return corners;
+  }
+
+  /// Call @p action with the boundary before the formulas and the corners of each boundary face.
+  template <typename Action>
+  void for_faces(const CoarseMesh &mesh, const Action &action) const
   {
     // Vertices of the coarse mesh need not lie at their positions.
     std::vector<MeshPoint<dim>> places(mesh.vertices.size());
     for (unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
       for (unsigned int v = 0; v < mesh.cells[cell].size(); ++v)
         places[mesh.cells[cell][v]] = {cell, dealii::GeometryInfo<dim>::unit_cell_vertex(v)};
-    const unsigned int         n_own = names.size() - added.size();
-    std::vector<unsigned int>  n_faces(added.size(), 0);
-    std::vector<CutFaces<dim>> cut(added.size());
     for (const auto &[vertices, boundary] : mesh.boundary_faces)
       {
-        boundaries.push_back(boundary);
         Corners corners;
         for (const unsigned int vertex : vertices)
           corners.push_back(this->body->position(places[vertex]));
-        for (unsigned int k = 0; k < added.size() && boundaries.back() == boundary; ++k)
-          if (added[k].of == boundary && contains(added[k].formula, corners, cut[k]))
-            {
-              boundaries.back() = n_own + k;
-              ++n_faces[k];
-            }
+        action(boundary, corners);
       }
+  }
+
+  /// Return the boundary of a face that has the boundary @p own before the formulas.
+  unsigned int
+  boundary_of(const unsigned int own, const Corners &corners, std::vector<CutFaces<dim>> &cut) const
+  {
     for (unsigned int k = 0; k < added.size(); ++k)
-      check(added[k].text, n_faces[k], cut[k]);
+      if (added[k].of == own && contains(added[k].formula, corners, cut[k]))
+        return names.size() - added.size() + k;
+    return own;
+  }
+
+  /// Check that each new boundary has faces and cuts none. A grid needs no coarse mesh for this.
+  void check() const
+  {
+    std::vector<unsigned int>  n_faces(names.size(), 0);
+    std::vector<CutFaces<dim>> cut(added.size());
+    const auto                 add = [&](const unsigned int boundary, const Corners &corners) {
+      ++n_faces[boundary_of(boundary, corners, cut)];
+    };
+    if (const auto *grid = this->grid())
+      grid->for_sides([&](const unsigned int cell, const unsigned int face) {
+        add(this->body->side_boundary(cell, face), side(cell, face));
+      });
+    else
+      for_faces(this->body->coarse_mesh(), add);
+    for (unsigned int k = 0; k < added.size(); ++k)
+      check(added[k].text, n_faces[names.size() - added.size() + k], cut[k]);
   }
 
   /// Return whether the formula is positive at all corners of a face, and count it in @p cut if it

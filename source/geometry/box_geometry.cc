@@ -76,11 +76,6 @@ public:
     set_spacing(parameters);
     for (const auto &face : parameters.curved_faces)
       add_curved_face(face.first, face.second);
-    // All ranks find here formulas that have no finite value at a vertex of the coarse mesh.
-    // Formulas without a finite value between these vertices are not found here.
-    if (!curved_faces.empty())
-      for (const auto &point : this->coarse_mesh().vertices)
-        grid_position(point);
   }
 
   dealii::Tensor<1, dim> extent() const override
@@ -157,7 +152,6 @@ public:
   }
 
 private:
-  using GridGeometry<dim>::cells;
   std::array<double, dim>      corner, size;
   std::array<AxisSpacing, dim> spacing;
   std::array<EqualSteps, dim>  steps;
@@ -175,8 +169,9 @@ private:
 
   void set_spacing(const BodyMeshParameters &parameters)
   {
-    const auto grading = per_axis<dim, double>("Box grading", parameters.grading, 1., true);
-    const auto fine = per_axis<dim, double>("Box fine length", parameters.fine_length, 0., false);
+    const auto &cells   = this->grid()->cells;
+    const auto  grading = per_axis<dim, double>("Box grading", parameters.grading, 1., true);
+    const auto  fine = per_axis<dim, double>("Box fine length", parameters.fine_length, 0., false);
     for (unsigned int d = 0; d < dim; ++d)
       {
         // The ratio of neighbouring sizes is the (n - 1)-th root of the grading, so n must

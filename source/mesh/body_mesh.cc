@@ -43,6 +43,8 @@ struct BodyMesh<dim>::Source
     else if (forest.triangulation())
       parts = distribute(forest.coarse(), elements, parameters, by_size, *forest.triangulation(),
                          distributed);
+    else if (forest.are_grids() && choose(partition_table(), parameters.method).make(true))
+      parts = distribute_grids(*forest.geometries(), parameters, by_size, distributed);
     else
       parts = distribute(forest.coarse(), elements, parameters, by_size, distributed);
     if (is_distributed)
@@ -307,7 +309,7 @@ BodyMesh<dim>::BodyMesh(const Forest<dim>                      &forest,
   , fe_degree(degree)
   , meaning(idealization)
   , geometries(forest.geometries())
-  , places(forest.coarse().places)
+  , places(forest.places())
 {
   const Source source(forest, degree, cells_per_subdomain(dim, fe_degree, meaning), tearing);
   n_cells = source.triangulation().n_global_active_cells();

@@ -118,7 +118,7 @@ CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
     }
   set.n_global  = dealii::Utilities::MPI::sum<unsigned long>(set.centres.size(), set.communicator);
   set.n_slender = count_slender(shapes, set.communicator);
-  set.layered   = geometry.has_grid() && has_one_level<dim>(cells, communicator);
+  set.layered   = geometry.grid() != nullptr && has_one_level<dim>(cells, communicator);
   return set;
 }
 

@@ -2,6 +2,7 @@
 #include <snug/base/gather.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/mesh/cell_shape.h>
+#include <snug/mesh/coarse_description.h>
 #include <snug/mesh/distribute.h>
 #include <snug/mesh/parts.h>
 
@@ -120,7 +121,7 @@ CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
   set.n_global     = coarse.first_cell[body + 1] - begin;
   set.n_slender    = count_slender(shapes, communicator);
   set.size         = geometry.extent();
-  set.layered      = geometry.has_grid();
+  set.layered      = geometry.grid() != nullptr;
   for (unsigned int cell = run.begin; cell < run.end; ++cell)
     {
       set.add(elements.place(dealii::CellId(cell, {})), [&](const dealii::Point<dim> &unit) {
@@ -191,21 +192,6 @@ relevant_cells(const CoarseMesh<dim> &coarse, const Places &places, const unsign
       result.push_back(cell);
   return result;
 }
-
-/// Return the description of a cell without children and with straight edges.
-template <int dim>
-dealii::TriangulationDescription::CellData<dim> cell_info(const unsigned int cell,
-                                                          const unsigned int rank)
-{
-  dealii::TriangulationDescription::CellData<dim> info;
-  info.id                 = dealii::CellId(cell, {}).template to_binary<dim>();
-  info.subdomain_id       = rank;
-  info.level_subdomain_id = dealii::numbers::artificial_subdomain_id;
-  info.manifold_id        = dealii::numbers::flat_manifold_id;
-  info.manifold_line_ids.fill(dealii::numbers::flat_manifold_id);
-  info.manifold_quad_ids.fill(dealii::numbers::flat_manifold_id);
-  return info;
-}
 } // namespace
 
 template <int dim>
@@ -219,18 +205,14 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
   const Neighbourhood<dim> neighbourhood(coarse);
   const Places             places =
     decide_places(coarse, elements, neighbourhood, parameters, by_size, communicator);
-  dealii::TriangulationDescription::Description<dim, dim> description;
-  description.comm      = communicator;
-  description.settings  = dealii::TriangulationDescription::Settings::default_setting;
-  description.smoothing = result.get_mesh_smoothing();
-  description.cell_infos.resize(1);
-  const unsigned int        none = static_cast<unsigned int>(-1);
+  auto                      description = coarse_description(result);
+  const unsigned int        none        = static_cast<unsigned int>(-1);
   std::vector<unsigned int> number(coarse.vertices.size(), none);
   for (const unsigned int cell :
        relevant_cells(coarse, places, dealii::Utilities::MPI::this_mpi_process(communicator)))
     {
-      description.coarse_cells.push_back(coarse.cells[cell]);
-      description.coarse_cell_index_to_coarse_cell_id.push_back(cell);
+      add_cell(cell, coarse.cells[cell].material_id, places.rank[cell], description);
+      description.coarse_cells.back().vertices = coarse.cells[cell].vertices;
       for (unsigned int &vertex : description.coarse_cells.back().vertices)
         {
           if (number[vertex] == none)
@@ -240,7 +222,6 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
             }
           vertex = number[vertex];
         }
-      description.cell_infos[0].push_back(cell_info<dim>(cell, places.rank[cell]));
       const auto &boundaries = neighbourhood.boundaries[cell];
       description.cell_infos[0].back().boundary_ids.assign(boundaries.begin(), boundaries.end());
     }

@@ -1,5 +1,6 @@
 #include <snug/base/deal_ii_compat.h>
 #include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/formula.h>
@@ -49,12 +50,41 @@ make_geometries(const std::vector<geometry::BodyMeshParameters> &bodies)
     geometries->push_back(geometry::make_geometry<dim>(body));
   return geometries;
 }
+
+template <int dim>
+geometry::CoarseCells<dim> places_in(const Geometries<dim> &geometries)
+{
+  std::vector<unsigned int> first_cell = {0};
+  for (const auto &geometry : geometries)
+    {
+      // The number of cells of a body is a double, see BodyGeometry.
+      const double end = first_cell.back() + geometry->n_coarse_cells();
+      first_cell.push_back(narrow<unsigned int>(static_cast<std::uint64_t>(end)));
+    }
+  return geometry::CoarseCells<dim>(first_cell);
+}
 } // namespace
+
+template <int dim>
+bool Forest<dim>::are_grids() const
+{
+  return std::all_of(shapes->begin(), shapes->end(),
+                     [](const auto &geometry) { return geometry->grid() != nullptr; });
+}
+
+template <int dim>
+const CoarseMesh<dim> &Forest<dim>::coarse() const
+{
+  if (!coarse_mesh)
+    coarse_mesh = std::make_unique<CoarseMesh<dim>>(*shapes);
+  return *coarse_mesh;
+}
 
 template <int dim>
 void Forest<dim>::create_triangulation()
 {
-  refined = std::make_unique<Triangulation>(comm);
+  const auto &coarse_mesh = coarse();
+  refined                 = std::make_unique<Triangulation>(comm);
   refined->create_triangulation(coarse_mesh.vertices, coarse_mesh.cells, dealii::SubCellData());
   for (const auto &cell : refined->cell_iterators_on_level(0))
     for (const unsigned int f : cell->face_indices())
@@ -115,7 +145,7 @@ Forest<dim>::Forest(MPI_Comm communicator, const std::vector<geometry::BodyMeshP
   : comm(communicator)
   , parameters(bodies)
   , shapes(make_geometries<dim>(bodies))
-  , coarse_mesh(*shapes)
+  , cell_places(places_in(*shapes))
 {
   unsigned int                                         global_steps = 0, local_steps = 0;
   std::vector<std::unique_ptr<geometry::Formula<dim>>> formulas;
@@ -143,7 +173,7 @@ Forest<dim>::Forest(MPI_Comm communicator, const std::vector<geometry::BodyMeshP
       // wanted.
       return formulas[body] && level < bodies[body].refinements + bodies[body].local_refinements &&
              formulas[body]->value((*shapes)[body]->position(
-               coarse_mesh.places.point(cell, geometry::unit_centre<dim>()))) > 0.;
+               cell_places.point(cell, geometry::unit_centre<dim>()))) > 0.;
     });
 }
 

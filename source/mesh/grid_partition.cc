@@ -1,9 +1,10 @@
-#include <snug/mesh/partition.h>
+#include <snug/mesh/grid_partition.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace snug::mesh {
 namespace {
@@ -49,6 +50,8 @@ std::array<unsigned int, dim> slab_counts(const dealii::Tensor<1, dim> &size, do
   return best;
 }
 
+const unsigned int n_bins = 4096;
+
 /// The numbers of cells of all ranks in bins of equal width along one logical coordinate, and the
 /// ends of the range.
 struct Histogram
@@ -56,10 +59,17 @@ struct Histogram
   std::vector<unsigned long> counts;
   double                     lower, upper;
 
-  double end_of(unsigned int bin) const
+  Histogram(const double lower, const double upper) : counts(n_bins, 0), lower(lower), upper(upper)
+  {}
+
+  void add(const double coordinate, const unsigned long n)
   {
-    return lower + (upper - lower) * (bin + 1) / counts.size();
+    // A single layer has zero width, and all its centres belong to bin 0.
+    const double width = std::max(upper - lower, 1e-300);
+    counts[std::min<unsigned int>(n_bins - 1, (coordinate - lower) / width * n_bins)] += n;
   }
+
+  double end_of(unsigned int bin) const { return lower + (upper - lower) * (bin + 1) / n_bins; }
 };
 
 /// Return the histogram of the logical coordinate @p axis of the cell centres. A histogram needs
@@ -68,20 +78,17 @@ struct Histogram
 template <int dim>
 Histogram histogram(const CellSet<dim> &set, unsigned int axis)
 {
-  const unsigned int n_bins   = 4096;
-  const double       infinity = std::numeric_limits<double>::infinity();
-  double             ends[2]  = {-infinity, -infinity};
+  const double infinity = std::numeric_limits<double>::infinity();
+  double       ends[2]  = {-infinity, -infinity};
   for (const auto &centre : set.centres)
     {
       ends[0] = std::max(ends[0], -centre[axis]);
       ends[1] = std::max(ends[1], centre[axis]);
     }
   MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, set.communicator);
-  Histogram bins{std::vector<unsigned long>(n_bins, 0), -ends[0], ends[1]};
-  // A single layer has zero width, and all its centres belong to bin 0.
-  const double width = std::max(bins.upper - bins.lower, 1e-300);
+  Histogram bins(-ends[0], ends[1]);
   for (const auto &centre : set.centres)
-    ++bins.counts[std::min<unsigned int>(n_bins - 1, (centre[axis] - bins.lower) / width * n_bins)];
+    bins.add(centre[axis], 1);
   MPI_Allreduce(MPI_IN_PLACE, bins.counts.data(), n_bins, MPI_UNSIGNED_LONG, MPI_SUM,
                 set.communicator);
   return bins;
@@ -120,6 +127,35 @@ std::vector<double> cuts(const Histogram &bins, unsigned int n)
     }
   return result;
 }
+
+/// Return the first layer of each slab of an axis of a grid, and then the number of layers.
+std::vector<unsigned int>
+first_layers(const unsigned int n_layers, const unsigned int n_slabs, const double cells_of_layer)
+{
+  std::vector<unsigned int> first = {0};
+  // Up to this number of layers, empty bins separate all layers, and slabs of a histogram, which
+  // other bodies have, are the same to the last cell.
+  if (n_layers <= n_bins / 2)
+    {
+      const auto centre = [&](const unsigned int layer) { return (layer + 0.5) / n_layers; };
+      Histogram  bins(centre(0), centre(n_layers - 1));
+      for (unsigned int layer = 0; layer < n_layers; ++layer)
+        bins.add(centre(layer), static_cast<unsigned long>(cells_of_layer));
+      for (const double at : cuts(bins, n_slabs))
+        {
+          unsigned int layer = first.back();
+          while (layer < n_layers && centre(layer) < at)
+            ++layer;
+          first.push_back(layer);
+        }
+    }
+  else
+    for (std::uint64_t k = 1; k < n_slabs; ++k)
+      // The cut is at the nearest end of a layer, and at the lower one of two.
+      first.push_back((2 * k * n_layers + n_slabs - 1) / (2 * n_slabs));
+  first.push_back(n_layers);
+  return first;
+}
 } // namespace
 
 /// The body is cut axis by axis. The cuts of an axis are logical planes through the whole body, so
@@ -144,6 +180,85 @@ Partition grid_partition(const CellSet<dim> &set, double cells_each)
   return result;
 }
 
+template <int dim>
+GridParts<dim>::GridParts(const geometry::CellGrid<dim> &grid,
+                          const dealii::Tensor<1, dim>  &size,
+                          const double                   cells_each)
+{
+  const double n_cells = grid.n_cells();
+  const auto   counts  = slab_counts<dim>(size, std::max(1l, std::lround(n_cells / cells_each)));
+  for (unsigned int axis = 0; axis < dim; ++axis)
+    first_layer[axis] = first_layers(grid.cells[axis], counts[axis], n_cells / grid.cells[axis]);
+}
+
+template <int dim>
+unsigned int GridParts<dim>::n_parts() const
+{
+  unsigned int n = 1;
+  for (unsigned int axis = 0; axis < dim; ++axis)
+    n *= n_slabs(axis);
+  return n;
+}
+
+template <int dim>
+unsigned long GridParts<dim>::n_filled() const
+{
+  unsigned long n = 1;
+  for (const auto &first : first_layer)
+    n *= std::set<unsigned int>(first.begin(), first.end()).size() - 1;
+  return n;
+}
+
+/// The parts before @p part are those in earlier slabs of axis 0, then those in the same slab of
+/// axis 0 and in earlier slabs of axis 1, and so on.
+template <int dim>
+unsigned long GridParts<dim>::cells_before(const unsigned int part) const
+{
+  unsigned long rest = 1; // cells of the whole grid
+  for (const auto &first : first_layer)
+    rest *= first.back();
+  if (part == n_parts())
+    return rest;
+  const auto [begin, end] = layers(part);
+  unsigned long before = 0, section = 1;
+  for (unsigned int axis = 0; axis < dim; ++axis)
+    {
+      rest /= first_layer[axis].back();
+      before += section * begin[axis] * rest;
+      section *= end[axis] - begin[axis];
+    }
+  return before;
+}
+
+template <int dim>
+unsigned int GridParts<dim>::part(const Counts &at) const
+{
+  unsigned int part = 0;
+  for (unsigned int axis = 0; axis < dim; ++axis)
+    {
+      const auto &first = first_layer[axis];
+      part              = part * n_slabs(axis) +
+             (std::upper_bound(first.begin(), first.end(), at[axis]) - first.begin() - 1);
+    }
+  return part;
+}
+
+template <int dim>
+std::pair<typename GridParts<dim>::Counts, typename GridParts<dim>::Counts>
+GridParts<dim>::layers(unsigned int part) const
+{
+  Counts begin, end;
+  for (unsigned int axis = dim; axis-- > 0; part /= n_slabs(axis))
+    {
+      const unsigned int slab = part % n_slabs(axis);
+      begin[axis]             = first_layer[axis][slab];
+      end[axis]               = first_layer[axis][slab + 1];
+    }
+  return {begin, end};
+}
+
+template class GridParts<2>;
+template class GridParts<3>;
 template Partition grid_partition(const CellSet<2> &, double);
 template Partition grid_partition(const CellSet<3> &, double);
 } // namespace snug::mesh

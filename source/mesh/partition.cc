@@ -1,20 +1,19 @@
-#include <snug/mesh/partition.h>
+#include <snug/mesh/grid_partition.h>
 
 namespace snug::mesh {
-template <int dim>
-const ChoiceTable<bool(const CellSet<dim> &)> &partition_table()
+const ChoiceTable<bool(bool)> &partition_table()
 {
   // The parameter reference prints the texts of this table.
-  static const ChoiceTable<bool(const CellSet<dim> &)> table = {
+  static const ChoiceTable<bool(bool)> table = {
     {"auto", "grid for boxes and rings without local refinement, METIS for others",
      // partition_table() in the header states the cost of ragged parts.
-     [](const CellSet<dim> &set) { return set.layered; }},
+     [](const bool layered) { return layered; }},
     {"grid",
      "grid of nearly cubic subdomains with cuts between layers of cells, which needs the fewest "
      "iterations",
-     [](const CellSet<dim> &) { return true; }},
+     [](bool) { return true; }},
     {"METIS", "partition of the cell graph with few shared faces, for meshes without layers",
-     [](const CellSet<dim> &) { return false; }}};
+     [](bool) { return false; }}};
   return table;
 }
 
@@ -23,13 +22,13 @@ std::vector<Partition> partitions(const std::string               &method,
                                   const std::vector<CellSet<dim>> &bodies,
                                   const std::vector<double>       &cells_each)
 {
-  const auto                       &by_grid = choose(partition_table<dim>(), method).make;
+  const auto                       &by_grid = choose(partition_table(), method).make;
   std::vector<Partition>            result(bodies.size());
   std::vector<unsigned int>         others;
   std::vector<const CellSet<dim> *> graphs;
   std::vector<double>               cells_of_graphs;
   for (unsigned int body = 0; body < bodies.size(); ++body)
-    if (by_grid(bodies[body]))
+    if (by_grid(bodies[body].layered))
       result[body] = grid_partition(bodies[body], cells_each[body]);
     else
       {
@@ -43,8 +42,6 @@ std::vector<Partition> partitions(const std::string               &method,
   return result;
 }
 
-template const ChoiceTable<bool(const CellSet<2> &)> &partition_table<2>();
-template const ChoiceTable<bool(const CellSet<3> &)> &partition_table<3>();
 template std::vector<Partition>
 partitions(const std::string &, const std::vector<CellSet<2>> &, const std::vector<double> &);
 template std::vector<Partition>

@@ -127,6 +127,9 @@ std::vector<QuadraticWeights> quadratic_weights(const geometry::ElementPart<dim>
 template <int dim>
 QuadraticElements<dim>::QuadraticElements(const Forest<dim> &forest)
 {
+  // The cells of grids are no parts of elements.
+  if (forest.are_grids())
+    return;
   const auto  &coarse     = forest.coarse();
   unsigned int n_elements = 0;
   for (unsigned int body = 0; body < coarse.geometries.size(); ++body)

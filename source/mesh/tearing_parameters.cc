@@ -10,7 +10,7 @@ void TearingParameters::declare(Entries &entries)
                             {{"auto", "number that follows from the numbers of cells and ranks"}}),
               "The target number of subdomains of all bodies on all ranks. The minimum is one per "
               "rank.");
-  entries.add("Method", method, choice(names(partition_table<3>())),
+  entries.add("Method", method, choice(names(partition_table())),
               "The method that divides a body into subdomains.");
   entries.add("Subdomains per cluster edge", count_or_auto(cluster_edge),
               with_meanings(

@@ -2,6 +2,7 @@
 #define snug_geometry_body_geometry_h
 
 #include <snug/base/values.h>
+#include <snug/geometry/cell_grid.h>
 #include <snug/geometry/known_surface.h>
 
 #include <deal.II/base/point.h>
@@ -258,9 +259,16 @@ public:
   /// Return the lengths along the logical axes. Only the ratios of the lengths are used.
   virtual dealii::Tensor<1, dim> extent() const = 0;
 
-  /// Return whether the body has a grid. The partition "auto" uses METIS for bodies without a
-  /// grid, such as bodies of blocks.
-  virtual bool has_grid() const { return false; }
+  /// Return the grid of the coarse cells, or null for bodies without a grid, such as bodies of
+  /// blocks.
+  virtual const CellGrid<dim> *grid() const { return nullptr; }
+
+  /// Return the boundary of the face @p face of a coarse cell on the side @p face of the grid. The
+  /// body must have a grid.
+  virtual unsigned int side_boundary(unsigned int /*coarse_cell*/, unsigned int face) const
+  {
+    return face;
+  }
 
   /// Return whether a boundary is a whole side of a box.
   virtual bool is_box_side(unsigned int /*boundary*/) const { return false; }

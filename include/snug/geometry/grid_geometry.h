@@ -2,19 +2,18 @@
 #define snug_geometry_grid_geometry_h
 
 #include <snug/geometry/body_geometry.h>
-#include <snug/geometry/cell_numbering.h>
+#include <snug/geometry/cell_grid.h>
 
 namespace snug::geometry {
 /**
  * A body whose coarse cells are a grid: cell (i, j, k) of n x m x l has
- * logical coordinates [i/n, (i+1)/n] x ... The last axis may be closed: the first layer of cells
- * follows the last layer. A closed axis has no sides.
+ * logical coordinates [i/n, (i+1)/n] x ... The last axis may be closed. A closed axis has no sides.
  */
 template <int dim>
 class GridGeometry : public BodyGeometry<dim>
 {
 public:
-  using Counts = std::array<unsigned int, dim>;
+  using Counts = typename CellGrid<dim>::Counts;
 
   /// Construct the grid. @p names are the names of the boundaries 2d + s. If the last axis is
   /// closed, its two names are omitted.
@@ -22,7 +21,7 @@ public:
 
   typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override;
 
-  double n_coarse_cells() const override { return product(cells); }
+  double n_coarse_cells() const override { return product(cells.cells); }
 
   const std::vector<std::string> &boundary_names() const override { return names; }
 
@@ -35,27 +34,21 @@ public:
 
   dealii::Point<dim> logical(const MeshPoint<dim> &point) const override;
 
-  bool has_grid() const override { return true; }
+  const CellGrid<dim> *grid() const override { return &cells; }
 
   /// Return the reference position at logical coordinates.
   virtual dealii::Point<dim> grid_position(const dealii::Point<dim> &logical) const = 0;
 
 protected:
-  /// Numbers of cells along the axes.
-  const Counts cells;
-
   /// Return whether the face @p face of a coarse cell is on the side @p face of the body.
   bool at_side(unsigned int coarse_cell, unsigned int face) const
   {
-    const unsigned int d = face / 2;
-    return multi_index(coarse_cell, cells)[d] == (face % 2 == 1 ? cells[d] - 1 : 0);
+    return cells.at_side(cells.layers(coarse_cell), face);
   }
 
 private:
+  const CellGrid<dim>      cells;
   std::vector<std::string> names;
-  bool                     closed;
-
-  unsigned int vertex(Counts place) const;
 };
 } // namespace snug::geometry
 

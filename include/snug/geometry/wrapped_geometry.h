@@ -49,7 +49,12 @@ public:
 
   dealii::Tensor<1, dim> extent() const override { return body->extent(); }
 
-  bool has_grid() const override { return body->has_grid(); }
+  const CellGrid<dim> *grid() const override { return body->grid(); }
+
+  unsigned int side_boundary(unsigned int coarse_cell, unsigned int face) const override
+  {
+    return body->side_boundary(coarse_cell, face);
+  }
 
   bool is_box_side(unsigned int boundary) const override { return body->is_box_side(boundary); }
 

@@ -43,6 +43,17 @@ distribute(const CoarseMesh<dim>                                  &coarse,
            const TearingParameters                                &parameters,
            const CellsPerSubdomain                                &by_size,
            dealii::parallel::fullydistributed::Triangulation<dim> &result);
+
+/// Distribute the coarse cells themselves to the same ranks and parts by the row "grid" of
+/// partition_table(). All bodies must have grids. A rank computes its own cells and their
+/// neighbours from the grids, so that no rank has the coarse mesh. Collective.
+/// @throws InputError if a formula of a geometry is not finite.
+template <int dim>
+std::vector<unsigned int>
+distribute_grids(const Geometries<dim>                                  &geometries,
+                 const TearingParameters                                &parameters,
+                 const CellsPerSubdomain                                &by_size,
+                 dealii::parallel::fullydistributed::Triangulation<dim> &result);
 } // namespace snug::mesh
 
 #endif

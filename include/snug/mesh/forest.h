@@ -16,8 +16,8 @@ namespace snug::mesh {
 template <int dim>
 using Geometries = std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>>;
 
-/// The joint coarse mesh of all bodies, which every rank holds completely. Bodies share no
-/// vertices, even where bodies touch.
+/// The joint coarse mesh of all bodies, which a rank holds completely. Bodies share no vertices,
+/// even where bodies touch.
 template <int dim>
 struct CoarseMesh
 {
@@ -44,7 +44,7 @@ class Forest
 public:
   using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
 
-  /// Make the coarse mesh and refine every body according to its parameters. Collective.
+  /// Make the geometries and refine every body according to its parameters. Collective.
   /// @throws InputError for bad mesh entries.
   Forest(MPI_Comm communicator, const std::vector<geometry::BodyMeshParameters> &bodies);
 
@@ -58,7 +58,16 @@ public:
   const std::vector<geometry::BodyMeshParameters> &bodies() const { return parameters; }
   /// Return the geometries of the bodies, which the meshes of a forest share.
   std::shared_ptr<const Geometries<dim>> geometries() const { return shapes; }
-  const CoarseMesh<dim>                 &coarse() const { return coarse_mesh; }
+
+  /// Return whether the coarse cells of all bodies are grids.
+  bool are_grids() const;
+
+  /// Return the index of each coarse cell in its body.
+  const geometry::CoarseCells<dim> &places() const { return cell_places; }
+
+  /// Return the coarse mesh, which is made when it is asked for: grids without refinement do
+  /// without it.
+  const CoarseMesh<dim> &coarse() const;
 
   /// Return the triangulation of p4est, or null as long as no cell has been refined. Its coarse
   /// cells are numbered by p4est, see PlacedIds.
@@ -68,7 +77,8 @@ private:
   MPI_Comm                                  comm;
   std::vector<geometry::BodyMeshParameters> parameters;
   std::shared_ptr<const Geometries<dim>>    shapes;
-  CoarseMesh<dim>                           coarse_mesh;
+  geometry::CoarseCells<dim>                cell_places;
+  mutable std::unique_ptr<CoarseMesh<dim>>  coarse_mesh;
   std::unique_ptr<Triangulation>            refined;
 
   /// Return whether a cell is wanted to be refined, given its body, its id and its level.

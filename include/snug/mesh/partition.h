@@ -84,14 +84,14 @@ struct Partition
 
 /**
  * Return the rows "auto", "grid" and "METIS" of the entry Method. A row returns whether the cells
- * of a body are partitioned by a grid; otherwise the cells are partitioned as a graph.
+ * of a body are partitioned by a grid, given whether they all lie in layers along the logical axes;
+ * otherwise the cells are partitioned as a graph.
  *
  * Parts that are cubes of cells with flat sides need half as many iterations as the ragged parts
  * of a graph partitioner (measured on two cubes with 54 subdomains of 6^3
  * cells: 14 against 31 iterations for a linear solve to 1e-6).
  */
-template <int dim>
-const ChoiceTable<bool(const CellSet<dim> &)> &partition_table();
+const ChoiceTable<bool(bool)> &partition_table();
 
 /**
  * Partition each body into parts of about @p cells_each cells by the row @p method of
@@ -101,10 +101,6 @@ template <int dim>
 std::vector<Partition> partitions(const std::string               &method,
                                   const std::vector<CellSet<dim>> &bodies,
                                   const std::vector<double>       &cells_each);
-
-/// Partition one body by slabs along the logical axes, cut between layers of cells. Collective.
-template <int dim>
-Partition grid_partition(const CellSet<dim> &set, double cells_each);
 
 /// Partition the cell graph of each whole body by METIS. Each graph is gathered on one rank, and
 /// the bodies take the ranks in turn. The weights of the graph edges are the areas of the faces,

@@ -4,6 +4,8 @@
 #include <snug/mesh/idealization.h>
 #include <snug/mesh/partition.h>
 
+#include <functional>
+
 namespace snug::mesh {
 /// Parts of each body, and the numbers of cells of the parts on all ranks together.
 struct Parts
@@ -38,6 +40,28 @@ cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &i
  */
 double larger_subdomains(unsigned int dim);
 
+/// What decides the sizes of the parts of a body.
+struct CellsOfBody
+{
+  unsigned long n_global;  ///< number of cells
+  unsigned long n_slender; ///< number of cells with CellShape::is_slender()
+  bool          layered;   ///< see CellSet
+  /// mean number of unknowns of a cell divided by that of a cell of no element
+  double work = 1.;
+};
+
+/**
+ * Call @p make with the numbers of cells of the parts of each body, until it has made as many parts
+ * with cells, whose number it returns, as there are ranks or cells. The numbers are halved from
+ * call to call. @p make returns the same number on all ranks.
+ */
+void make_parts(unsigned int                                                     dim,
+                const std::vector<CellsOfBody>                                  &bodies,
+                const TearingParameters                                         &parameters,
+                const CellsPerSubdomain                                         &by_size,
+                unsigned int                                                     n_ranks,
+                const std::function<unsigned long(const std::vector<double> &)> &make);
+
 /**
  * Decide the parts into which the bodies are torn. @p sets holds the cells of each body. If the
  * number of subdomains is chosen by size, parts have about the number of cells of @p by_size.
@@ -49,9 +73,28 @@ Parts decide_parts(const std::vector<CellSet<dim>> &sets,
                    const CellsPerSubdomain         &by_size);
 
 /**
+ * The ranks of the parts of bodies, one body after the other. The parts of each body are assigned
+ * to the ranks in runs. The share of a rank in a body compensates the imbalance of the bodies
+ * before.
+ */
+class RankRuns
+{
+public:
+  explicit RankRuns(unsigned int n_ranks) : load(n_ranks, 0.) {}
+
+  /// Return the first part of each rank, and then the number of parts of the next body.
+  /// @p cells_before returns the number of cells of the parts before a part, or of all parts.
+  std::vector<unsigned int>
+  next_body(unsigned int n_parts, const std::function<unsigned long(unsigned int)> &cells_before);
+
+private:
+  std::vector<double> load;     ///< cells of each rank
+  double              all = 0.; ///< cells of all ranks
+};
+
+/**
  * Return the ranks of the parts, body by body. @p cells[b][p] is the number of cells
- * of part p of body b. The parts of each body are assigned to the ranks in runs. The share of a
- * rank in a body compensates the imbalance of the bodies before.
+ * of part p of body b. The ranks are those of RankRuns.
  */
 std::vector<std::vector<unsigned int>>
 ranks_of_parts(const std::vector<std::vector<unsigned long>> &cells, unsigned int n_ranks);
