@@ -76,6 +76,8 @@ public:
     set_spacing(parameters);
     for (const auto &face : parameters.curved_faces)
       add_curved_face(face.first, face.second);
+    for (const auto &face : curved_faces)
+      check(face);
   }
 
   dealii::Tensor<1, dim> extent() const override
@@ -188,6 +190,22 @@ private:
                                    : AxisSpacing::graded(cells[d], grading[d]);
         if (fine[d] == 0. && grading[d] == 1.)
           steps[d] = EqualSteps(corner[d], size[d], cells[d]);
+      }
+  }
+
+  /// Evaluate the displacement at all vertices of the face, so that all ranks find a formula that
+  /// is not finite there. A formula that is not finite between these vertices is not found.
+  void check(const CurvedFace<dim> &face) const
+  {
+    auto n                 = this->grid()->vertices();
+    n[face.boundary() / 2] = 1;
+    for (unsigned int vertex = 0; vertex < product(n); ++vertex)
+      {
+        const auto         at = multi_index(vertex, n);
+        dealii::Point<dim> logical;
+        for (unsigned int d = 0; d < dim; ++d)
+          logical[d] = static_cast<double>(at[d]) / this->grid()->cells[d];
+        face.displacement(box_position(box_fraction(logical)));
       }
   }
 

@@ -28,7 +28,8 @@ Bodies bodies()
   result[0].grading.assign(dim, 3.);
   result[0].boundary_formulas = {{"pad", "top & x > 0"}, {"corner", "right & y > 0"}};
   result[1].cells[0]          = 3;
-  result[1].fine_length.assign(dim, 0.3);
+  result[1].fine_length.assign(dim, 0.);
+  result[1].fine_length[0]       = 0.3;
   result[1].curved_faces["left"] = "0.1 * y";
   result[1].size.assign(dim, 1.);
   result[1].size.back() = 0.1;
@@ -109,7 +110,7 @@ void expect_same(const MPI_Comm communicator)
 void expect_parts(const unsigned int n, const double length, const double cells_each)
 {
   SCOPED_TRACE(std::to_string(n) + " layers of the length " + std::to_string(length));
-  const geometry::CellGrid<2> grid{{n, 2}};
+  const geometry::CellGrid<2> grid{{{n, 2}}};
   mesh::CellSet<2>            set;
   set.communicator = MPI_COMM_SELF;
   set.n_global     = 2 * n;
@@ -186,7 +187,7 @@ TEST(DistributeGrids, PartsAreThoseOfTheCells)
 
 TEST(DistributeGrids, ManyLayersAreCutAtTheNearestLayer)
 {
-  const mesh::GridParts<2> parts({{10001, 1}}, dealii::Point<2>(10001., 0.1), 2500.);
+  const mesh::GridParts<2> parts({{{10001, 1}}}, dealii::Point<2>(4., 1.), 2500.);
   ASSERT_EQ(parts.n_parts(), 4u);
   EXPECT_EQ(parts.cells_before(1), 2500u);
   EXPECT_EQ(parts.cells_before(2), 5000u); // the lower one of two that are as near
