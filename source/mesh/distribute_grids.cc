@@ -148,19 +148,18 @@ std::vector<unsigned int> vertices_of(const CellGrid<dim>             &grid,
   return result;
 }
 
-/// Add the cells of a body on @p rank and their neighbours to the description, and the parts of the
-/// cells on @p rank to @p parts.
+/// Add @p cells of a body to the description, and the parts of those on @p rank to @p parts.
 template <int dim>
 void describe(const geometry::BodyGeometry<dim>                       &geometry,
               const unsigned int                                       body,
               const unsigned int                                       first_cell,
               const PlacedParts<dim>                                  &placed,
+              const std::vector<unsigned int>                         &cells,
               const unsigned int                                       rank,
               dealii::TriangulationDescription::Description<dim, dim> &description,
               std::vector<unsigned int>                               &parts)
 {
   const auto               &grid     = *geometry.grid();
-  const auto                cells    = relevant_cells(grid, placed, rank);
   const auto                vertices = vertices_of(grid, cells);
   const unsigned int        none     = static_cast<unsigned int>(-1);
   std::vector<unsigned int> number(vertices.size(), none);
@@ -201,15 +200,27 @@ distribute_grids(const Geometries<dim>                                  &geometr
                  const CellsPerSubdomain                                &by_size,
                  dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
-  const MPI_Comm            communicator = deal_ii_compat::communicator(result);
-  auto                      description  = coarse_description(result);
-  const auto                placed = place_parts(geometries, parameters, by_size, communicator);
+  const MPI_Comm     communicator = deal_ii_compat::communicator(result);
+  const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+  auto               description  = coarse_description(result);
+  const auto         placed       = place_parts(geometries, parameters, by_size, communicator);
+  std::vector<std::vector<unsigned int>> cells;
+  std::size_t                            n_cells = 0;
+  for (unsigned int body = 0; body < geometries.size(); ++body)
+    {
+      cells.push_back(relevant_cells(*geometries[body]->grid(), placed[body], rank));
+      n_cells += cells.back().size();
+    }
+  // Vectors that grow would take twice the memory.
+  description.coarse_cells.reserve(n_cells);
+  description.coarse_cell_index_to_coarse_cell_id.reserve(n_cells);
+  description.cell_infos[0].reserve(n_cells);
   std::vector<unsigned int> parts;
   unsigned int              first_cell = 0;
   for (unsigned int body = 0; body < geometries.size(); ++body)
     {
-      describe(*geometries[body], body, first_cell, placed[body],
-               dealii::Utilities::MPI::this_mpi_process(communicator), description, parts);
+      describe(*geometries[body], body, first_cell, placed[body], cells[body], rank, description,
+               parts);
       first_cell += geometries[body]->grid()->n_cells();
     }
   result.create_triangulation(description);
