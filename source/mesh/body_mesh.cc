@@ -40,13 +40,8 @@ struct BodyMesh<dim>::Source
       elements = QuadraticElements<dim>(forest);
     if (!is_distributed)
       ids.emplace(*forest.triangulation());
-    else if (forest.triangulation())
-      parts = distribute(forest.coarse(), elements, parameters, by_size, *forest.triangulation(),
-                         distributed);
-    else if (forest.are_grids() && choose(partition_table(), parameters.method).make(true))
-      parts = distribute_grids(*forest.geometries(), parameters, by_size, distributed);
     else
-      parts = distribute(forest.coarse(), elements, parameters, by_size, distributed);
+      parts = distribute(forest, elements, parameters, by_size, distributed);
     if (is_distributed)
       nodes.reinit(distributed);
     else

@@ -212,11 +212,29 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
   return received_parts(result, sent);
 }
 
+template <int dim>
+std::vector<unsigned int> distribute(const Forest<dim>            &forest,
+                                     const QuadraticElements<dim> &elements,
+                                     const TearingParameters      &parameters,
+                                     const CellsPerSubdomain      &by_size,
+                                     dealii::parallel::fullydistributed::Triangulation<dim> &result)
+{
+  if (forest.triangulation())
+    return distribute(forest.coarse(), elements, parameters, by_size, *forest.triangulation(),
+                      result);
+  if (forest.are_grids() && choose(partition_table(), parameters.method).make(true))
+    return distribute_grids(*forest.geometries(), parameters, by_size, result);
+  return distribute(forest.coarse(), elements, parameters, by_size, result);
+}
+
 #define SNUG_INSTANTIATE(dim)                                                             \
   template std::vector<unsigned int> distribute(                                          \
     const CoarseMesh<dim> &, const QuadraticElements<dim> &, const TearingParameters &,   \
     const CellsPerSubdomain &, const dealii::parallel::distributed::Triangulation<dim> &, \
-    dealii::parallel::fullydistributed::Triangulation<dim> &);
+    dealii::parallel::fullydistributed::Triangulation<dim> &);                            \
+  template std::vector<unsigned int> distribute(                                          \
+    const Forest<dim> &, const QuadraticElements<dim> &, const TearingParameters &,       \
+    const CellsPerSubdomain &, dealii::parallel::fullydistributed::Triangulation<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -54,6 +54,16 @@ distribute_grids(const Geometries<dim>                                  &geometr
                  const TearingParameters                                &parameters,
                  const CellsPerSubdomain                                &by_size,
                  dealii::parallel::fullydistributed::Triangulation<dim> &result);
+
+/// Distribute the cells of a forest by the function above that needs least. Collective.
+/// @throws InputError if a formula of a geometry is not finite.
+template <int dim>
+std::vector<unsigned int>
+distribute(const Forest<dim>                                      &forest,
+           const QuadraticElements<dim>                           &elements,
+           const TearingParameters                                &parameters,
+           const CellsPerSubdomain                                &by_size,
+           dealii::parallel::fullydistributed::Triangulation<dim> &result);
 } // namespace snug::mesh
 
 #endif

@@ -40,7 +40,7 @@ cells_per_subdomain(unsigned int dim, unsigned int degree, const Idealization &i
  */
 double larger_subdomains(unsigned int dim);
 
-/// What decides the sizes of the parts of a body.
+/// Cells of a body, which decide the sizes of its parts.
 struct CellsOfBody
 {
   unsigned long n_global;  ///< number of cells
