@@ -69,6 +69,11 @@ def hard_cases(_sizes, quick):
               ("point", "prm/point-contact.prm", []),
               ("boxes", "prm/hertz-3d-9.prm", cubes(n)),
               ("boxes, METIS", "prm/hertz-3d-9.prm", cubes(n, "Decomposition/Method=METIS")),
+              *((f"clusters of {edge} per edge", "prm/hertz-3d-9.prm",
+                 cubes(*((8, "Decomposition/Subdomains=128") if quick else
+                         (30, "Decomposition/Subdomains=432")),
+                       f"Decomposition/Subdomains per cluster edge={edge}"))
+                for edge in (1, 2, 3)),
               ("nu 0.499, B-bar", "prm/hertz-3d-9.prm",
                cubes(n, *(f"Body {body}/{entry}" for body in ("punch", "foundation")
                           for entry in ("Poisson's ratio=0.499", "Formulation=B-bar"))))]
@@ -80,14 +85,16 @@ def ranks_cases(sizes, quick):
     n, counts = (6 if quick else 24), [2 ** k for k in range(1 + max(sizes or [2]).bit_length())]
     counts = [ranks for ranks in counts if ranks <= max(sizes or [2])]
     cases = [hertz("same work", 9, TORN + cubes(n), ranks) for ranks in counts]
-    for name, other, entries in (("more work", n // 2, []),
-                                 ("more work, mortar", n // 2 - 2, ["Contact/Method=mortar"])):
+    # 15 cells make cubes of 5 cells on any number of ranks, which have no soft modes
+    per_rank = 3 if quick else 15
+    for name, other, entries in (("more work", per_rank, []),
+                                 ("more work, mortar", per_rank - 2, ["Contact/Method=mortar"])):
         for ranks in counts:
             # as many as ranks of them, as near to a square as powers of two allow
             across = 2 ** (ranks.bit_length() // 2)
             along = ranks // across
             grown = [f"Body {body}/Box {entry}"
-                     for body, corner, m in (("punch", 1, n // 2), ("foundation", 0, other))
+                     for body, corner, m in (("punch", 1, per_rank), ("foundation", 0, other))
                      for entry in (f"cells={m * across}, {m * along}, {m}",
                                    f"size={across}, {along}, 1", f"corner=0, 0, {corner}")]
             cases.append(hertz(name, 9, TORN + grown + entries, ranks))
@@ -208,7 +215,7 @@ def main():
     options = parser.parse_intermixed_args()
     programs = [program for program in (options.snug, options.against) if program]
     counter = next(iter(options.snug.absolute().parent.glob("libcount_messages.so")), None)
-    writer = None
+    writer, first = None, {}
     for case in CASES[options.name](options.sizes, options.quick):
         summaries = collections.defaultdict(list)
         for _ in range(1 if options.quick else options.repeats):
@@ -219,6 +226,10 @@ def main():
                     program, case._replace(entries=known), counter))
         for program in programs:
             row = row_of(program, case, summaries[program], options.name)
+            if options.name == "ranks":
+                # private memory of a rank at the end over that at the start, against the first row
+                own = row["MB_output"] - row["MB_start"]
+                row["growth"] = round(own / first.setdefault((program, case.name), own), 2)
             if writer is None:
                 writer = csv.DictWriter(sys.stdout, row.keys(), extrasaction="ignore",
                                         restval="", lineterminator="\n")

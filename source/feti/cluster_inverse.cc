@@ -243,83 +243,98 @@ std::vector<MultiVector> ClusterInverse::join(const PrimalVectors &b, PrimalVect
 {
   const unsigned int                     n_columns = b.n_columns(), m = table.n_modes;
   std::vector<ClusterStructure::Numbers> of_subdomains(systems.size());
-  std::vector<MultiVector>               given; // [C v; -R'b] of each subdomain
+  std::vector<MultiVector>               e; // R'b of each subdomain
   for (unsigned int s = 0; s < systems.size(); ++s)
     {
-      const auto         t = moments(table.joints[s], x[s]);
-      const auto         e = transpose_times(systems[s].R, b[s]);
-      const unsigned int k = t.n_rows();
-      given.emplace_back(k + m, n_columns);
-      for (unsigned int j = 0; j < n_columns && k > 0; ++j)
-        {
-          std::copy(t.column(j), t.column(j) + k, given[s].column(j));
-          for (unsigned int i = 0; i < m; ++i)
-            given[s](k + i, j) = -e(i, j);
-        }
+      e.push_back(transpose_times(systems[s].R, b[s]));
+      const unsigned int k = joints[s]->N.n_rows();
       if (k == 0)
         continue;
-      const auto forces = times(joints[s]->T, given[s]);
+      const auto  t = moments(table.joints[s], x[s]);
+      MultiVector given(k + m, n_columns);
+      for (unsigned int j = 0; j < n_columns; ++j)
+        {
+          std::copy(t.column(j), t.column(j) + k, given.column(j));
+          for (unsigned int i = 0; i < m; ++i)
+            given(k + i, j) = -e[s](i, j);
+        }
+      const auto forces = times(joints[s]->T, given);
       for (unsigned int j = 0; j < n_columns; ++j)
         of_subdomains[s].insert(of_subdomains[s].end(), forces.column(j), forces.column(j) + k);
     }
-  const auto size     = [n_columns](unsigned int k) { return k * n_columns; };
-  auto       received = structure.to_homes(of_subdomains, size);
+  const auto               q = solve_moments(of_subdomains, n_columns);
+  std::vector<MultiVector> mu;
+  for (unsigned int s = 0; s < systems.size(); ++s)
+    mu.push_back(prescribe_moments(s, q[s], e[s], x[s]));
+  return mu;
+}
+
+/// Solve S_c q = h at the homes, where the numbers of the subdomains are their parts of h. Return
+/// the moments q of each subdomain.
+std::vector<ClusterStructure::Numbers>
+ClusterInverse::solve_moments(const std::vector<ClusterStructure::Numbers> &of_subdomains,
+                              const unsigned int                            n_columns) const
+{
+  const auto size       = [n_columns](unsigned int k) { return k * n_columns; };
+  auto       of_members = structure.to_homes(of_subdomains, size);
   for (std::size_t c = 0; c < S.size(); ++c)
     {
       const auto &cluster = structure.clusters()[c];
-      MultiVector h(cluster.pattern->n_rows, n_columns);
+      MultiVector h(cluster.pattern->n_rows, n_columns), q = h;
       for (const unsigned int i : cluster.members)
         {
           const auto &unknowns = structure.members()[i].unknowns;
           for (unsigned int j = 0; j < n_columns; ++j)
             for (unsigned int a = 0; a < unknowns.size(); ++a)
-              h(unknowns[a], j) += received[i][j * unknowns.size() + a];
+              h(unknowns[a], j) += of_members[i][j * unknowns.size() + a];
         }
-      MultiVector q(h.n_rows(), n_columns);
       S[c]->solve(h, q);
       for (const unsigned int i : cluster.members)
         {
           const auto &unknowns = structure.members()[i].unknowns;
           for (unsigned int j = 0; j < n_columns; ++j)
             for (unsigned int a = 0; a < unknowns.size(); ++a)
-              received[i][j * unknowns.size() + a] = q(unknowns[a], j);
+              of_members[i][j * unknowns.size() + a] = q(unknowns[a], j);
         }
     }
-  const auto               q = structure.to_subdomains(received, size);
-  std::vector<MultiVector> mu;
-  for (unsigned int s = 0; s < systems.size(); ++s)
+  return structure.to_subdomains(of_members, size);
+}
+
+/// Change @p x = K^+ b of a subdomain with R'b = @p e such that its moments are @p q. Return mu.
+MultiVector ClusterInverse::prescribe_moments(const unsigned int               s,
+                                              const ClusterStructure::Numbers &q,
+                                              const MultiVector               &e,
+                                              MultiVector                     &x) const
+{
+  const SubdomainJoints &of = *joints[s];
+  const unsigned int     k = of.N.n_rows(), m = table.n_modes;
+  MultiVector            mu(k, x.n_columns());
+  // The second pass removes the rounding errors of T, after which the moments of both sides of a
+  // joint are equal. Otherwise F would be small instead of zero along the forces of joints, and
+  // iterations could not reach residuals below 1e-10.
+  for (unsigned int pass = 0; pass < 2 && k > 0; ++pass)
     {
-      const unsigned int k = given[s].n_rows() - m;
-      mu.emplace_back(k, n_columns);
-      if (k == 0)
-        continue;
-      // The second pass removes the rounding errors of T, after which the moments of both sides of
-      // a joint are equal. Otherwise F would be small instead of zero along the forces of joints,
-      // and iterations could not reach residuals below 1e-10.
-      for (unsigned int pass = 0; pass < 2; ++pass)
+      const auto  t       = moments(table.joints[s], x);
+      const auto  springs = times(of.W, transpose_times(of.W, mu));
+      const auto  balance = transpose_times(of.N, mu);
+      MultiVector rest(k + m, x.n_columns());
+      for (unsigned int j = 0; j < x.n_columns(); ++j)
         {
-          const auto  of_x    = moments(table.joints[s], x[s]);
-          const auto  springs = times(joints[s]->W, transpose_times(joints[s]->W, mu[s]));
-          MultiVector rest(k + m, n_columns);
-          const auto  balance = transpose_times(joints[s]->N, mu[s]);
-          for (unsigned int j = 0; j < n_columns; ++j)
-            {
-              for (unsigned int i = 0; i < k; ++i)
-                rest(i, j) = of_x(i, j) - springs(i, j) - q[s][std::size_t(j) * k + i];
-              for (unsigned int i = 0; i < m; ++i)
-                rest(k + i, j) = given[s](k + i, j) + balance(i, j);
-            }
-          const auto  both = times(joints[s]->T, rest);
-          MultiVector of_joints(k, n_columns), alpha(m, n_columns);
-          for (unsigned int j = 0; j < n_columns; ++j)
-            {
-              std::copy(both.column(j), both.column(j) + k, of_joints.column(j));
-              std::copy(both.column(j) + k, both.column(j) + k + m, alpha.column(j));
-            }
-          mu[s].add(1., of_joints);
-          x[s].add_product(-1., joints[s]->Y, of_joints);
-          x[s].add_product(1., systems[s].R, alpha);
+          for (unsigned int i = 0; i < k; ++i)
+            rest(i, j) = t(i, j) - springs(i, j) - q[std::size_t(j) * k + i];
+          for (unsigned int i = 0; i < m; ++i)
+            rest(k + i, j) = balance(i, j) - e(i, j);
         }
+      const auto  both = times(of.T, rest);
+      MultiVector forces(k, x.n_columns()), alpha(m, x.n_columns());
+      for (unsigned int j = 0; j < x.n_columns(); ++j)
+        {
+          std::copy(both.column(j), both.column(j) + k, forces.column(j));
+          std::copy(both.column(j) + k, both.column(j) + k + m, alpha.column(j));
+        }
+      mu.add(1., forces);
+      x.add_product(-1., of.Y, forces);
+      x.add_product(1., systems[s].R, alpha);
     }
   return mu;
 }

@@ -12,17 +12,13 @@ void TearingParameters::declare(Entries &entries)
               "rank.");
   entries.add("Method", method, choice(names(partition_table())),
               "The method that divides a body into subdomains.");
-  entries.add("Subdomains per cluster edge", count_or_auto(cluster_edge),
-              with_meanings(
-                form,
-                {{"auto", "1 for at most 2,500 subdomains or where soft modes are found, otherwise "
+  entries.add(
+    "Subdomains per cluster edge", count_or_auto(cluster_edge),
+    with_meanings(form, {{"auto",
+                          "1 for at most 2,500 subdomains or where soft modes are found, otherwise "
                           "the minimum with at most 1,000 clusters"}}),
-              "The number of subdomains along the edge of a cluster. The subdomains of a cluster "
-              "are joined by "
-              "the rigid motions of their common faces, and the coarse problem has unknowns for "
-              "clusters only. "
-              "Clusters of 2 to 4 subdomains per edge need up to 1.3 times the F-mults of a "
-              "contact state and "
-              "twice those of a linear solve. With a given number above 1 no soft modes are used.");
+    "The number of subdomains along the edge of a cluster. The faces inside a cluster join "
+    "its subdomains, and the coarse problem has unknowns for clusters only. Clusters need "
+    "more F-mults. Above 1 no soft modes are used.");
 }
 } // namespace snug::mesh

@@ -71,6 +71,13 @@ public:
 private:
   void set_rigid_modes();
   void factorize();
+  std::vector<ClusterStructure::Numbers>
+                  solve_moments(const std::vector<ClusterStructure::Numbers> &of_subdomains,
+                                unsigned int                                  n_columns) const;
+  qp::MultiVector prescribe_moments(unsigned int                     s,
+                                    const ClusterStructure::Numbers &q,
+                                    const qp::MultiVector           &e,
+                                    qp::MultiVector                 &x) const;
 
   const ClusterStructure                          &structure;
   const SubdomainTable                            &table;

@@ -116,10 +116,7 @@ public:
     return problem->assemblers;
   }
   /// Return the number of clusters of subdomains. Subdomains that are not joined count as clusters.
-  unsigned int n_clusters() const
-  {
-    return problem->of(0).structure->coarse.table.n_clusters();
-  }
+  unsigned int n_clusters() const { return problem->of(0).structure->coarse.table.n_clusters(); }
   /// Return the number of rigid body modes of all clusters.
   unsigned int n_kernel() const { return problem->of(0).structure->coarse.table.n_kernel(); }
   RunContext  &context() const { return problem->context; }

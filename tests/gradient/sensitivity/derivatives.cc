@@ -149,6 +149,15 @@ TEST(Gradient, NineHeights3D)
   check_derivatives(scene);
 }
 
+TEST(Gradient, ClustersOfSubdomains3D)
+{
+  auto given         = curved_scene<3>(4, 4, 0.04);
+  given.subdomains   = 16;
+  given.cluster_edge = 2;
+  GradientScene<3> scene(given, 0.05);
+  check_derivatives(scene);
+}
+
 TEST(Gradient, SixteenHeightsAndLoads3D)
 {
   auto given                                       = curved_scene<3>(3, 4, 0.04);

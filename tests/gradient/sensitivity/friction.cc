@@ -93,6 +93,14 @@ TEST(FrictionGradient, Mortar3D)
   check(scene);
 }
 
+TEST(FrictionGradient, OnClustersOfSubdomains)
+{
+  auto scene         = pushed_punch<2>(12, contact::Method::nodal);
+  scene.subdomains   = 16;
+  scene.cluster_edge = 2;
+  check(scene);
+}
+
 TEST(FrictionGradient, OnSprings)
 {
   auto scene                                 = pushed_punch<2>(12, contact::Method::nodal);

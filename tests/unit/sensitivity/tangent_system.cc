@@ -84,6 +84,18 @@ TEST(TangentSystem, SolvesItsProblem3D)
   expect_optimal(scene, sensitivity::Solves::block);
 }
 
+TEST(TangentSystem, SolvesItsProblemOnClusters)
+{
+  auto flat = two_blocks<2>(6, 7, 3.);
+  set_design(flat, 4, 0.04);
+  auto solid = two_blocks<3>(6, 6, 3.);
+  set_design(solid, 3, 0.04);
+  flat.subdomains = solid.subdomains = 24;
+  flat.cluster_edge = solid.cluster_edge = 2;
+  expect_optimal(flat, sensitivity::Solves::recycled);
+  expect_optimal(solid, sensitivity::Solves::block);
+}
+
 TEST(TangentSystem, ColumnsDoNotDependOnTheirCompany)
 {
   auto scene = two_blocks<3>(3, 4, 3.);
