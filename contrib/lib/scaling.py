@@ -7,15 +7,17 @@ RANKS and COARSE are the tables of contrib/bench ranks (to 16 ranks, more than t
 contrib/bench coarse. Prints what was fitted and, in markdown, what it predicts: seconds of a cold
 state and megabytes per rank, and what limits it first.
 
-Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains:
+Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains in C clusters:
   setup    a n/p + b n              seconds, from 1 and 2 ranks: b is what every rank does for all
   factors  c n/p
-  F-mult   d n/p + s(N) C + messages (LATENCY + bytes/BANDWIDTH) + collectives (...) log2 p
-  face     f(N)                     the coarse factorization after a change of the active set
-  memory   M0 + M1 n/p + M2 n + m(N)
-f, s and m are of the coarse problem that each rank keeps, powers of N beyond what was measured.
-Of a large one that a team of ranks shares they are multiplied by the ratios of the largest teams
-that were measured to one rank, seconds by CORES/members as if each member had its own core.
+  F-mult   d n/p + s(C) + messages (LATENCY + bytes/BANDWIDTH) + collectives (...) log2 p
+  face     f(C)                     the coarse factorization after a change of the active set
+  memory   M0 + M1 n/p + M2 n + m(C)
+f, s and m are of the coarse problem that each rank keeps, powers of C beyond what was measured.
+Clusters need more F-mults. The last table has subdomains that are not joined, C = N: of their
+large coarse problem, which a team of ranks shares, f, s and m are multiplied by the ratios of the
+largest teams that were measured to one rank, seconds by CORES/members as if each member had its
+own core.
 """
 
 import itertools
@@ -31,12 +33,25 @@ LATENCY, BANDWIDTH = 2e-6, 1e10  # of a usual cluster network [s, bytes/s]; assu
 MEMORY = 4000.                 # MB a rank has; assumed
 CORES = 2                      # of the machine that measured: seconds of more ranks say nothing
 MODES = 6                      # of a subdomain
+# as Decomposition/Subdomains per cluster edge = auto chooses clusters
+MOST_SINGLE, MOST_CLUSTERS = 2500, 1000
+# F-mults with clusters of so many subdomains per edge over those without, see doc/choices.md; those
+# of 5 and more are assumed
+MORE_F_MULTS = {1: 1., 2: 1.29, 3: 1.37, 4: 1.48, 5: 1.6, 6: 1.7}
 COARSE = {"factorization": "factorization", "solve": "solve", "MB": "memory"}
 
 
-def team(subdomains, p):
+def cluster_edge(subdomains):
+    """Return the number of subdomains along the edge of a cluster."""
+    edge = 1
+    while subdomains > MOST_SINGLE and subdomains / edge ** 3 > MOST_CLUSTERS:
+        edge += 1
+    return edge
+
+
+def team(parts, p):
     """Return the ranks that share a coarse problem, as Solver/Coarse ranks = 0 chooses them."""
-    rows = MODES * subdomains
+    rows = MODES * parts
     return 1 if rows <= 20000 or p < 4 else min(p, max(4, int(rows / 6000)))
 
 
@@ -105,33 +120,37 @@ class Model:
             for key in COARSE}
             for row in coarse if row["subdomains"] == largest["subdomains"]}
 
-    def of_coarse(self, key, n, p):
-        """Return seconds or megabytes of the coarse problem, of a team at most as large as the
-        largest measured."""
-        subdomains = n / UNKNOWNS_PER_SUBDOMAIN
-        members = team(subdomains, p)
+    def of_coarse(self, key, parts, p):
+        """Return seconds or megabytes of the coarse problem of clusters or single subdomains, of a
+        team at most as large as the largest measured."""
+        members = team(parts, p)
         share = self.teams[max(size for size in self.teams if size <= members)]
-        return share[key] * self.coarse[key](subdomains)
+        return share[key] * self.coarse[key](parts)
 
-    def stages(self, n, p):
+    def stages(self, n, p, joins):
         """Return the seconds of the stages of a cold state."""
+        subdomains = n / UNKNOWNS_PER_SUBDOMAIN
+        edge = cluster_edge(subdomains) if joins else 1
+        parts, f_mults = subdomains / edge ** 3, F_MULTS * MORE_F_MULTS[edge]
         messages = self.messages * LATENCY + self.bytes_per_share * (n / p) ** (2. / 3.) / BANDWIDTH
-        collectives = math.log2(p) * (self.collectives * LATENCY + self.bytes_per_subdomain
-                                      * n / UNKNOWNS_PER_SUBDOMAIN / BANDWIDTH)
+        collectives = math.log2(p) * (self.collectives * LATENCY
+                                      + self.bytes_per_subdomain * parts / BANDWIDTH)
         return {"setup, of the rank's part": self.setup[0] * n / p,
                 "setup, of all on each rank": self.setup[1] * n,
                 "factorizations": self.factors * n / p,
-                "F": F_MULTS * self.f_mult * n / p,
-                "coarse solves": F_MULTS * COARSE_SOLVES * self.of_coarse("solve", n, p),
-                "coarse factorizations": FACES * self.of_coarse("factorization", n, p),
-                "messages": F_MULTS * messages,
-                "collective calls": F_MULTS * collectives}
+                "F": f_mults * self.f_mult * n / p,
+                "coarse solves": f_mults * COARSE_SOLVES * self.of_coarse("solve", parts, p),
+                "coarse factorizations": FACES * self.of_coarse("factorization", parts, p),
+                "messages": f_mults * messages,
+                "collective calls": f_mults * collectives}
 
-    def megabytes(self, n, p):
+    def megabytes(self, n, p, joins):
         """Return the parts of the memory of a rank."""
+        subdomains = n / UNKNOWNS_PER_SUBDOMAIN
+        parts = subdomains / (cluster_edge(subdomains) if joins else 1) ** 3
         return {"of the rank's part": self.memory[0] + self.memory[1] * n / p,
                 "of all on each rank": self.memory[2] * n,
-                "coarse factor": self.of_coarse("MB", n, p)}
+                "coarse factor": self.of_coarse("MB", parts, p)}
 
 
 def main(ranks, coarse):
@@ -148,18 +167,21 @@ def main(ranks, coarse):
         print(f"a team of {members}: factorization {of['factorization']:.2f} of one rank's,",
               f"solve {of['solve']:.2f}, memory {of['MB']:.2f}")
     print()
-    print_head("unknowns", "ranks", "seconds", "of these compute shared out",
-               "largest of the rest", "MB per rank", "largest of these")
-    for n, p in itertools.product((1e7, 1e8), (64, 256, 1024)):
-        stages, memory = model.stages(n, p), model.megabytes(n, p)
-        shared = ("setup, of the rank's part", "factorizations", "F")
-        total, part = sum(stages.values()), sum(stages[key] for key in shared)
-        worst = max((key for key in stages if key not in shared), key=stages.get)
-        most = max(memory, key=memory.get)
-        beyond = " (too much)" if sum(memory.values()) > MEMORY else ""
-        print_row(f"{n:.0e}", p, f"{total:.3g}", f"{100 * part / total:.0f} %",
-                  f"{worst}: {stages[worst]:.3g} s", f"{sum(memory.values()):.0f}{beyond}",
-                  f"{most}: {memory[most]:.0f}")
+    for joins, sizes in ((True, [(1.6e6, 16), *itertools.product((1e7, 1e8), (64, 256, 1024))]),
+                         (False, [(1e7, 64), (1e8, 1024)])):
+        print_head("unknowns", "ranks", "seconds", "of these compute shared out",
+                   "largest of the rest", "MB per rank", "largest of these")
+        for n, p in sizes:
+            stages, memory = model.stages(n, p, joins), model.megabytes(n, p, joins)
+            shared = ("setup, of the rank's part", "factorizations", "F")
+            total, part = sum(stages.values()), sum(stages[key] for key in shared)
+            worst = max((key for key in stages if key not in shared), key=stages.get)
+            most = max(memory, key=memory.get)
+            beyond = " (too much)" if sum(memory.values()) > MEMORY else ""
+            print_row(f"{n:.1e}", p, f"{total:.3g}", f"{100 * part / total:.0f} %",
+                      f"{worst}: {stages[worst]:.3g} s", f"{sum(memory.values()):.0f}{beyond}",
+                      f"{most}: {memory[most]:.0f}")
+        print()
 
 
 if __name__ == "__main__":
