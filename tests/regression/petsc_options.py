@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 PREFIXES = ("kplus", "dirichlet", "coarse", "soft_modes", "row_gram")
+CLUSTERED = ("Decomposition/Subdomains per cluster edge=2",)
 RTOL = 1e-7
 RANKS = 5
 THREE_CELLS = ("Decomposition/Subdomains=auto", "Body upper/Box cells=1, 1, 1",
@@ -76,6 +77,7 @@ def check_answers(runs):
         expect_same(f"{prefix} by mumps", runs.run(environment=by("mumps", prefix)))
     for package in ("petsc", "mumps", "superlu"):
         expect_same(f"all by LU of {package}", runs.run(by(package, *PREFIXES, kind="lu")))
+    expect_same("clusters by mumps", runs.run(by("mumps", "clusters"), entries=CLUSTERED))
     expect_same("another order", runs.run("-kplus_pc_factor_mat_ordering_type rcm"))
     expect_same("kplus by mumps on two ranks", runs.run(by("mumps", "kplus"), ranks=2))
     expect_same("the command line over the environment",
@@ -83,7 +85,7 @@ def check_answers(runs):
 
 
 def check_errors(runs):
-    for prefix in PREFIXES:
+    for prefix in (*PREFIXES, "clusters"):
         done = runs.run(environment=by("no-such-package", prefix))
         runs.expect(f"no such package for {prefix}", done.returncode == 2 and
                     done.stderr.count("\n") == 1 and f"-{prefix}_pc" in done.stderr, done)
