@@ -15,7 +15,9 @@ ShapeProblem<dim>::ShapeProblem(RunContext                          &context,
   {
     const RunContext::Timer timer(context, "setup");
     check_distances(scene, *mesh);
-    tearing = mesh::tear(*mesh, scene.tearing.cluster_edge);
+    // Only the active set method knows clusters, see scene::check().
+    tearing =
+      mesh::tear(*mesh, scene.solver.method == "active set" ? scene.tearing.cluster_edge : 1);
     shape::BodyNames names;
     for (const auto &body : scene.bodies)
       names.names.push_back(body.name);

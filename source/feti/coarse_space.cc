@@ -21,6 +21,9 @@ const double kernel_cut = 1e-13;
 /// Eigenvalues of Z'AZ below this part of the mean of diag A belong to hardly resisted motions,
 /// which would cost A^-1 too many digits.
 const double weak_cut = 1e-5;
+
+/// Sums below this part of the sum of their absolute terms are zero except for rounding.
+const double rounding_of_sums = 1e-13;
 } // namespace
 
 CoarseStructure::CoarseStructure(const RowLayout   &the_layout,
@@ -122,10 +125,21 @@ CoarseSpace::CoarseSpace(const CoarseStructure              &structure,
   , blocks(structure.block_cluster.size() * structure.table.n_modes, 0.)
   , equality_gram(structure.gram.values.size(), 0.)
 {
-  const unsigned int m = pattern.table.n_modes;
+  const unsigned int  m = pattern.table.n_modes;
+  std::vector<double> gross(blocks.size(), 0.); // sums before they cancel
   for (std::size_t e = 0; e < pattern.block_of_entry.size(); ++e)
     for (unsigned int i = 0; i < m; ++i)
-      blocks[pattern.block_of_entry[e] * m + i] += G_entries[e * (offset + m) + offset + i];
+      {
+        const double entry = G_entries[e * (offset + m) + offset + i];
+        blocks[pattern.block_of_entry[e] * m + i] += entry;
+        gross[pattern.block_of_entry[e] * m + i] += std::abs(entry);
+      }
+  // Gluing rows inside a cluster resist no motion of the cluster. Their rounding errors would be
+  // all that G has for a body in one cluster, and would seem to hold the body.
+  if (!pattern.table.clusters.empty())
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      if (std::abs(blocks[i]) <= rounding_of_sums * gross[i])
+        blocks[i] = 0.;
   // The contribution of the equality rows is the same for all faces of a design.
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (!layout.contact_rows()[row])

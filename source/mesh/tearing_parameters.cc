@@ -17,8 +17,8 @@ void TearingParameters::declare(Entries &entries)
     with_meanings(form, {{"auto",
                           "1 for at most 2,500 subdomains or where soft modes are found, otherwise "
                           "the minimum with at most 1,000 clusters"}}),
-    "The number of subdomains along the edge of a cluster. The faces inside a cluster join "
-    "its subdomains, and the coarse problem has unknowns for clusters only. Clusters need "
-    "more F-mults. Above 1 no soft modes are used.");
+    "The number of subdomains along the edge of a cluster. The faces inside a cluster join its "
+    "subdomains, and the coarse problem has unknowns for clusters only. Clusters need more "
+    "F-mults. Above 1 the solver must be active set, and no soft modes are used.");
 }
 } // namespace snug::mesh

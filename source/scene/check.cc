@@ -136,6 +136,17 @@ void check_export(const Scene &scene, const Origins &origins)
              "must be false with springs, which the exported matrices do not contain");
 }
 
+/// Check what does not know clusters of subdomains. The proof of convergence of SMALSE-M needs the
+/// eigenvalues of F, some of which clusters make zero.
+void check_clusters(const Scene &scene, const Origins &origins)
+{
+  SectionCheck("Solver", origins, scene.dimension)
+    .require(scene.tearing.cluster_edge <= 1 || scene.solver.method == "active set", "Method",
+             scene.solver.method,
+             "must be 'active set' with clusters of subdomains ('Decomposition/Subdomains per "
+             "cluster edge')");
+}
+
 /// Check what does not know friction.
 void check_friction(const Scene &scene, const Origins &origins)
 {
@@ -219,6 +230,7 @@ void check(const Scene &scene, const Origins &origins)
   check_shapes(scene, origins);
   check_responses(scene, origins);
   check_friction(scene, origins);
+  check_clusters(scene, origins);
   check_gradient(scene, section("Gradient"));
   scene.accuracy.check(section("Accuracy"));
   scene.output.check(section("Output"));

@@ -75,7 +75,7 @@ answer_of(const scene::Scene &scene, const WholeBodies<dim> &whole, unsigned lon
   std::ostringstream      log;
   RunContext              context(MPI_COMM_WORLD, log);
   const auto              mesh    = app::build_mesh<dim>(scene, MPI_COMM_WORLD);
-  const auto              tearing = mesh::tear(*mesh);
+  const auto              tearing = mesh::tear(*mesh, scene.tearing.cluster_edge);
   state::StateSolver<dim> solver(*mesh, tearing, app::build_model(scene, *mesh),
                                  mesh->reference_positions(), context);
   Answer<dim>             answer;

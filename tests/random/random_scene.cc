@@ -46,7 +46,7 @@ void contact(Common &c, const std::string &pairs, const std::string &gap)
   c.scene.end();
 }
 
-void solver(Common &c)
+void solver(Common &c, bool in_clusters)
 {
   c.scene.begin("Decomposition");
   c.scene.set("Subdomains", c.draw.whole(1, 8));
@@ -54,11 +54,17 @@ void solver(Common &c)
   c.scene.end();
   c.scene.begin("Solver");
   c.scene.set("Relative tolerance", "1e-9");
-  c.scene.set("Method", c.draw.chance(0.15) ? "SMALSE-M" : "active set");
+  const std::string method = c.draw.chance(0.15) ? "SMALSE-M" : "active set";
+  c.scene.set("Method", method);
   c.scene.set("Preconditioner",
               c.draw.one_of({"Dirichlet", "Dirichlet", "Dirichlet", "lumped", "none"}));
   c.scene.set("Scaling", c.draw.one_of({"stiffness", "multiplicity"}));
   c.scene.set("Factorization", c.draw.chance(0.1) ? "MUMPS" : "CHOLMOD");
+  c.scene.end();
+  if (!in_clusters || method != "active set")
+    return;
+  c.scene.begin("Decomposition");
+  c.scene.set("Subdomains per cluster edge", 2);
   c.scene.end();
 }
 
@@ -300,7 +306,7 @@ std::string random_scene(unsigned int number)
   const auto &kind = table[number % table.size()];
   Common      c{Draw(number), {}, kind.dim, 1};
   kind.make(c);
-  solver(c);
+  solver(c, number / table.size() % 3 == 2);
   return c.scene.text();
 }
 } // namespace snug::test

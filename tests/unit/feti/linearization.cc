@@ -164,6 +164,19 @@ TEST_P(Trusses, DualOperatorOfClustersIsSymmetric)
   EXPECT_LT(error, 1e-11 * xFx(0, 0));
 }
 
+/// Gluing rows inside a cluster hold no body, not even by rounding errors.
+TEST_P(Trusses, ClustersLeaveBodiesFree)
+{
+  const auto free_bodies = [this](const bool clustered) {
+    truss.clustered = clustered;
+    const auto feti = truss.make({});
+    return feti::free_bodies(feti->linearization(), truss.owned(masks(truss)[1]));
+  };
+  const auto expected = free_bodies(false);
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(free_bodies(true), expected);
+}
+
 TEST_P(Trusses, CoarseSpaceIsRB)
 {
   const auto   feti = truss.make({});
