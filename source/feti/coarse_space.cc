@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace snug::feti {
 namespace {
@@ -64,45 +65,59 @@ CoarseStructure::CoarseStructure(const RowLayout   &the_layout,
       for (unsigned int mode = 0; mode < table.n_modes; ++mode)
         representatives.push_back(table.cluster_of(s) * table.n_modes + mode);
     }
-  build_pattern();
+  find_couplings();
 }
 
 /// The pattern is that of all rows. Faces have fewer nonzero entries, but a common pattern lets all
 /// faces share a symbolic factorization.
-void CoarseStructure::build_pattern()
+void CoarseStructure::find_couplings()
 {
-  const unsigned int m = table.n_modes;
-  std::set<Coupling> couplings, contact_couplings;
+  Couplings all, of_contact;
   // Clusters without rows also need their diagonal block.
   for (unsigned int c = 0; c < table.n_clusters(); ++c)
-    couplings.insert({c, c});
+    all.insert({c, c});
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     for (unsigned int a = block_start[row]; a < block_start[row + 1]; ++a)
       for (unsigned int b = block_start[row]; b < block_start[row + 1]; ++b)
         {
           const Coupling pair{block_cluster[a], block_cluster[b]};
-          couplings.insert(pair);
+          all.insert(pair);
           // Contact rows change with the active set, so only their entries are summed for each
           // face.
           if (layout.contact_rows()[row])
-            contact_couplings.insert(pair);
+            of_contact.insert(pair);
         }
   // N_f (N_f'N_f)^-1 N_f' couples the representatives of all bodies, because a motion of the kernel
   // may move several bodies.
   for (const unsigned int i : representatives)
     for (const unsigned int j : representatives)
-      couplings.insert({i / m, j / m});
-  const auto                         pairs = unite(couplings, layout.communicator());
-  std::vector<std::vector<PetscInt>> rows(table.n_kernel());
-  for (const Coupling &pair : pairs)
-    for (unsigned int i = 0; i < m; ++i)
-      for (unsigned int j = 0; j < m; ++j)
-        rows[pair.row * m + i].push_back(pair.column * m + j);
-  gram = CsrMatrix::from_rows(rows, table.n_kernel());
-  for (const Coupling &pair : unite(contact_couplings, layout.communicator()))
-    for (unsigned int i = 0; i < m; ++i)
-      for (unsigned int j = 0; j < m; ++j)
-        contact_places.push_back(gram.position(pair.row * m + i, pair.column * m + j));
+      all.insert({i / table.n_modes, j / table.n_modes});
+  couplings         = all.unite(table.n_clusters(), layout.communicator());
+  contact_couplings = of_contact.unite(table.n_clusters(), layout.communicator());
+}
+
+std::shared_ptr<const CsrPattern> CoarseStructure::gram_pattern() const
+{
+  const unsigned int m = table.n_modes;
+  CsrPattern         result;
+  result.n_rows = result.n_columns = table.n_kernel();
+  result.row_start.reserve(table.n_kernel() + 1);
+  result.columns.reserve(couplings.columns.size() * m * m);
+  for (unsigned int i = 0; i < table.n_kernel(); ++i)
+    {
+      for (PetscInt p = couplings.row_start[i / m]; p < couplings.row_start[i / m + 1]; ++p)
+        for (unsigned int j = 0; j < m; ++j)
+          result.columns.push_back(narrow<PetscInt>(couplings.columns[p] * m + j));
+      result.row_start.push_back(narrow<PetscInt>(result.columns.size()));
+    }
+  return std::make_shared<const CsrPattern>(std::move(result));
+}
+
+CoarseStructure::Block CoarseStructure::block(const unsigned int a, const unsigned int b) const
+{
+  const std::size_t m = table.n_modes, begin = couplings.row_start[a];
+  const std::size_t length = (couplings.row_start[a + 1] - begin) * m;
+  return {begin * m * m + (couplings.position(a, b) - begin) * m, length};
 }
 
 void CoarseStructure::sum(qp::MultiVector &contributions) const
@@ -123,7 +138,9 @@ CoarseSpace::CoarseSpace(const CoarseStructure              &structure,
   : pattern(structure)
   , layout(structure.layout)
   , blocks(structure.block_cluster.size() * structure.table.n_modes, 0.)
-  , equality_gram(structure.gram.values.size(), 0.)
+  , equality_gram(structure.couplings.columns.size() * structure.table.n_modes *
+                    structure.table.n_modes,
+                  0.)
 {
   const unsigned int  m = pattern.table.n_modes;
   std::vector<double> gross(blocks.size(), 0.); // sums before they cancel
@@ -141,18 +158,21 @@ CoarseSpace::CoarseSpace(const CoarseStructure              &structure,
       if (std::abs(blocks[i]) <= rounding_of_sums * gross[i])
         blocks[i] = 0.;
   // The contribution of the equality rows is the same for all faces of a design.
+  const auto place = [&](const unsigned int a, const unsigned int b) {
+    const auto block = pattern.block(a, b);
+    return std::make_pair(&equality_gram[block.first], block.length);
+  };
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (!layout.contact_rows()[row])
-      add_column(row, &blocks[std::size_t(pattern.block_start[row]) * m], equality_gram);
+      add_column(row, &blocks[std::size_t(pattern.block_start[row]) * m], place);
   sum_over_ranks(equality_gram, layout.communicator());
   set_body_modes(Z);
 }
 
-/// Add g g' to @p values, which are in the pattern's order. @p column holds g in the blocks of
-/// @p row.
-void CoarseSpace::add_column(const unsigned int   row,
-                             const double        *column,
-                             std::vector<double> &values) const
+/// Add g g' to the blocks that @p place returns for two clusters: the first entry, and the distance
+/// of rows. @p column holds g in the blocks of @p row.
+template <typename Place>
+void CoarseSpace::add_column(const unsigned int row, const double *column, const Place &place) const
 {
   const unsigned int m        = pattern.table.n_modes;
   const auto        &start    = pattern.block_start;
@@ -160,11 +180,7 @@ void CoarseSpace::add_column(const unsigned int   row,
   for (unsigned int a = start[row]; a < start[row + 1]; ++a)
     for (unsigned int b = start[row]; b < start[row + 1]; ++b)
       {
-        // The m rows of a block row have the same pattern.
-        const unsigned int first  = clusters[a] * m;
-        const auto        &starts = pattern.gram.row_start();
-        const unsigned int length = starts[first + 1] - starts[first];
-        double            *to     = &values[pattern.gram.position(first, clusters[b] * m)];
+        auto [to, length] = place(clusters[a], clusters[b]);
         for (unsigned int i = 0; i < m; ++i, to += length)
           for (unsigned int j = 0; j < m; ++j)
             to[j] += column[(a - start[row]) * m + i] * column[(b - start[row]) * m + j];
@@ -310,8 +326,14 @@ qp::MultiVector CoarseSpace::transpose_multiply(const qp::MultiVector &alpha) co
 
 CsrMatrix CoarseSpace::gram(const qp::FreeRows &free) const
 {
-  std::vector<double> contact(equality_gram.size(), 0.);
-  auto                unit_columns = free.rows();
+  // Sum only the blocks of contact rows, because they are few in large models.
+  const std::size_t   m   = pattern.table.n_modes;
+  const CsrPattern   &few = pattern.contact_couplings;
+  std::vector<double> contact(few.columns.size() * m * m, 0.);
+  const auto          place = [&](const unsigned int a, const unsigned int b) {
+    return std::make_pair(&contact[few.position(a, b) * m * m], m);
+  };
+  auto unit_columns = free.rows();
   for (const qp::Slip &slip : free.slips())
     {
       const auto  &cone = slip.cone;
@@ -319,24 +341,25 @@ CsrMatrix CoarseSpace::gram(const qp::FreeRows &free) const
       add_column(
         cone.tangents[0],
         combined_column(cone, 1., {{mu * slip.direction[0], mu * slip.direction[1]}}).data(),
-        contact);
+        place);
       if (cone.n_tangents == 2)
-        add_column(cone.tangents[0], combined_column(cone, 0., slip.across()).data(), contact);
+        add_column(cone.tangents[0], combined_column(cone, 0., slip.across()).data(), place);
       unit_columns[cone.normal] = 0;
     }
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     if (layout.contact_rows()[row] && unit_columns[row])
-      add_column(row, &blocks[std::size_t(pattern.block_start[row]) * pattern.table.n_modes],
-                 contact);
-  // Send only the entries of contact rows, because they are few in large models.
-  std::vector<double> packed;
-  for (const std::size_t place : pattern.contact_places)
-    packed.push_back(contact[place]);
-  sum_over_ranks(packed, layout.communicator());
-  CsrMatrix result = pattern.gram;
-  result.values    = equality_gram;
-  for (std::size_t i = 0; i < packed.size(); ++i)
-    result.values[pattern.contact_places[i]] += packed[i];
+      add_column(row, &blocks[std::size_t(pattern.block_start[row]) * m], place);
+  sum_over_ranks(contact, layout.communicator());
+  CsrMatrix     result(pattern.gram_pattern(), equality_gram);
+  const double *next = contact.data();
+  for (unsigned int a = 0; a < few.n_rows; ++a)
+    for (PetscInt p = few.row_start[a]; p < few.row_start[a + 1]; ++p)
+      {
+        const auto [first, length] = pattern.block(a, few.columns[p]);
+        for (std::size_t i = 0; i < m; ++i)
+          for (std::size_t j = 0; j < m; ++j)
+            result.values[first + i * length + j] += *next++;
+      }
   return result;
 }
 

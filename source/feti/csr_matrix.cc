@@ -82,10 +82,10 @@ CsrMatrix CsrMatrix::from_rows(const std::vector<std::vector<PetscInt>> &columns
 }
 
 /// Binary search, as columns ascend. A place off the pattern gives that of another entry.
-std::size_t CsrMatrix::position(PetscInt i, PetscInt j) const
+std::size_t CsrPattern::position(PetscInt i, PetscInt j) const
 {
-  const auto first = columns().begin();
-  return std::lower_bound(first + row_start()[i], first + row_start()[i + 1], j) - first;
+  const auto first = columns.begin();
+  return std::lower_bound(first + row_start[i], first + row_start[i + 1], j) - first;
 }
 
 double CsrMatrix::mean_diagonal() const

@@ -133,15 +133,12 @@ void DeflationStructure::find_parts()
 
 void DeflationStructure::build_pattern()
 {
-  std::set<Coupling> couplings;
+  Couplings couplings;
   for (const Part &part : parts)
     for (const unsigned int i : part.ids)
       for (const unsigned int j : part.ids)
         couplings.insert({i, j});
-  std::vector<std::vector<PetscInt>> rows(n_vectors);
-  for (const Coupling &pair : unite(couplings, coarse.layout.communicator()))
-    rows[pair.row].push_back(pair.column);
-  E = CsrMatrix::from_rows(rows, n_vectors);
+  E = std::make_shared<const CsrPattern>(couplings.unite(n_vectors, coarse.layout.communicator()));
 }
 
 DeflationVectors::DeflationVectors(const DeflationStructure           &the_structure,
@@ -263,7 +260,7 @@ qp::MultiVector DeflationVectors::store(const unsigned int         s,
 /// Assemble E, scale E to unit diagonal, add the shift and factorize.
 void DeflationVectors::factorize(const std::vector<qp::MultiVector> &products)
 {
-  CsrMatrix matrix = structure.E;
+  CsrMatrix matrix(structure.E);
   for (unsigned int s = 0; s < parts.size(); ++s)
     {
       const auto &ids = structure.parts[s].ids;

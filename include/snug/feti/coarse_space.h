@@ -80,13 +80,24 @@ public:
   std::vector<unsigned int> block_cluster;   ///< cluster of each block
   std::vector<unsigned int> block_of_entry;  ///< block of each gathered entry
   std::vector<unsigned int> representatives; ///< coarse coordinates of one cluster per body
-  /// matrix with the pattern of G G', in which the representatives of all bodies are coupled
-  CsrMatrix                gram;
-  std::vector<std::size_t> contact_places; ///< positions in gram to which contact rows contribute
-  FactorPool               factors;        ///< factorizations of G_M G_M' of the faces
+  /// clusters that are coupled in G G', by rows or as representatives of bodies
+  CsrPattern couplings;
+  CsrPattern contact_couplings; ///< clusters that contact rows couple
+  FactorPool factors;           ///< factorizations of G_M G_M' of the faces
+
+  /// Return the pattern of G G', which has a full block of n_modes^2 entries for each coupling.
+  std::shared_ptr<const CsrPattern> gram_pattern() const;
+
+  /// Entries of a block of G G'. Its rows are @p length apart.
+  struct Block
+  {
+    std::size_t first, length;
+  };
+  /// Return the place in gram_pattern() of the block of the coupled clusters @p a and @p b.
+  Block block(unsigned int a, unsigned int b) const;
 
 private:
-  void build_pattern();
+  void find_couplings();
 };
 
 /**
@@ -121,7 +132,7 @@ public:
   qp::MultiVector transpose_multiply(const qp::MultiVector &alpha) const;
 
   /// Return G_M G_M' of the multipliers of @p free, G_M = G Z, in the pattern of
-  /// CoarseStructure::gram. Collective.
+  /// CoarseStructure::gram_pattern(). Collective.
   CsrMatrix gram(const qp::FreeRows &free) const;
 
   /// Return the orthonormal body modes in coarse coordinates, n_kernel x (n_bodies n_modes). They
@@ -144,15 +155,16 @@ public:
 
 private:
   void set_body_modes(const std::vector<qp::MultiVector> &Z);
-  void add_column(unsigned int row, const double *column, std::vector<double> &values) const;
+  template <typename Place>
+  void                add_column(unsigned int row, const double *column, const Place &place) const;
   std::vector<double> combined_column(const qp::FrictionCone      &cone,
                                       double                       of_normal,
                                       const std::array<double, 2> &of_tangents) const;
 
   const CoarseStructure &pattern;
   const RowLayout       &layout;
-  std::vector<double>    blocks; ///< n_modes numbers per block of G
-  std::vector<double>    equality_gram;
+  std::vector<double>    blocks;        ///< n_modes numbers per block of G
+  std::vector<double>    equality_gram; ///< in CoarseStructure::gram_pattern()
   qp::MultiVector        modes;
 };
 } // namespace snug::feti

@@ -1,11 +1,10 @@
 #ifndef snug_feti_couplings_h
 #define snug_feti_couplings_h
 
-#include <snug/qp/multi_vector.h>
+#include <snug/feti/csr_matrix.h>
 
 #include <mpi.h>
 
-#include <set>
 #include <tuple>
 #include <vector>
 
@@ -31,8 +30,18 @@ struct Coupling
   }
 };
 
-/// Return the union of the couplings of all ranks, sorted. Collective.
-std::vector<Coupling> unite(const std::set<Coupling> &mine, MPI_Comm comm);
+/// Couplings of a rank. They are inserted many times and stored about once, in one array.
+class Couplings
+{
+public:
+  void insert(const Coupling &pair);
+
+  /// Return the pattern of the couplings of all ranks in an @p n x @p n matrix. Collective.
+  CsrPattern unite(unsigned int n, MPI_Comm comm);
+
+private:
+  std::vector<Coupling> pairs;
+};
 
 /// Sum @p values over ranks. The order of the summation depends on the number of ranks, and with it
 /// the last digits of the result. Collective.

@@ -19,6 +19,9 @@ struct CsrPattern
   unsigned int          n_columns = 0;
   std::vector<PetscInt> row_start{0}; ///< n_rows + 1 numbers
   std::vector<PetscInt> columns;
+
+  /// Return the position of (i, j) in columns. The entry must exist.
+  std::size_t position(PetscInt i, PetscInt j) const;
 };
 
 /**
@@ -49,7 +52,7 @@ public:
   const std::vector<PetscInt> &columns() const { return places->columns; }
 
   /// Return the position of (i, j) in values. The entry must exist.
-  std::size_t position(PetscInt i, PetscInt j) const;
+  std::size_t position(PetscInt i, PetscInt j) const { return places->position(i, j); }
 
   /// Return the diagonal entry of row @p i. The function searches the row, so it is meant for
   /// scales and set-up, not for inner loops.

@@ -33,14 +33,14 @@ struct DeflationStructure
     std::set<unsigned int>    wanted_by; ///< ranks of the vectors, which need the rows of t
   };
 
-  const CoarseStructure    &coarse;
-  SubdomainRanks            rank_of;
-  std::vector<RowForces>    raw;
-  unsigned int              first_id = 0, n_vectors = 0; ///< of this rank; over all ranks
-  std::vector<unsigned int> multiplicity; ///< subdomains of each local equality row, or 0
-  std::vector<Part>         parts;        ///< of the subdomains of this rank
-  CsrMatrix                 E;            ///< pattern
-  FactorPool                factors{MatrixKind::soft_modes}; ///< factorizations of E
+  const CoarseStructure            &coarse;
+  SubdomainRanks                    rank_of;
+  std::vector<RowForces>            raw;
+  unsigned int                      first_id = 0, n_vectors = 0; ///< of this rank; over all ranks
+  std::vector<unsigned int>         multiplicity; ///< subdomains of each local equality row, or 0
+  std::vector<Part>                 parts;        ///< of the subdomains of this rank
+  std::shared_ptr<const CsrPattern> E;            ///< pattern of E
+  FactorPool                        factors{MatrixKind::soft_modes}; ///< factorizations of E
 
 private:
   void count_subdomains(const qp::RowSet &rows);
