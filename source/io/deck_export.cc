@@ -278,10 +278,10 @@ private:
         nodes[whole.number_of[global]] = held.find(global);
     std::string along_axes, equations;
     for (const auto &[node, index] : nodes)
-      for (unsigned int j = 0; j < frames[index].directions.size(); ++j)
+      for (unsigned int j = 0; j < frames.directions(index).size(); ++j)
         {
-          const auto  &d     = frames[index].directions[j];
-          const double value = frames[index].values[j].front();
+          const auto  &d     = frames.directions(index)[j];
+          const double value = frames.value(index, j, 0);
           const auto   terms = components_of(d);
           if (terms.size() == 1)
             {

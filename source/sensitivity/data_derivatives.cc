@@ -174,13 +174,7 @@ template <int dim>
 void add(double weight, const state::RowCoefficients<dim> &of, state::RowCoefficients<dim> &rows)
 {
   add(weight, of.contact, rows.contact);
-  for (unsigned int h = 0; h < rows.held.size(); ++h)
-    for (unsigned int k = 0; k < rows.held[h].directions.size(); ++k)
-      {
-        rows.held[h].directions[k] += weight * of.held[h].directions[k];
-        for (unsigned int c = 0; c < rows.held[h].values[k].size(); ++c)
-          rows.held[h].values[k][c] += weight * of.held[h].values[k][c];
-      }
+  rows.held.add(weight, of.held);
 }
 
 /// Return the minimum diagonal of the boundary faces of the bodies over the maximum

@@ -117,7 +117,7 @@ std::vector<std::vector<dealii::Tensor<1, 3>>> free_rotations(const StateSolver<
         continue;
       const auto &box   = boxes[mesh.body_of_node(node)];
       const auto  place = (state.positions[node] - box.centre) / box.length;
-      for (const auto &direction : frames[h].directions)
+      for (const auto &direction : frames.directions(h))
         {
           dealii::Tensor<1, 3> q, x;
           for (int d = 0; d < dim; ++d)

@@ -13,21 +13,23 @@ struct HeldDirection
   double                 s, ds;
 };
 
-/// Return the held directions with their derivatives. Empty derivative frames stand for zero, for
-/// directions that do not follow the positions.
+/// Return the directions held at node @p h with their derivatives. Empty derivative frames stand
+/// for zero, for directions that do not follow the positions.
 template <int dim>
-std::vector<HeldDirection<dim>> held_directions(const supports::ConstraintFrame<dim> &frame,
-                                                const supports::ConstraintFrame<dim> &derivative,
-                                                unsigned int                          load_case)
+std::vector<HeldDirection<dim>> held_directions(const supports::ConstraintFrames<dim> &frames,
+                                                const supports::ConstraintFrames<dim> &derivatives,
+                                                const unsigned int                     h,
+                                                const unsigned int                     load_case)
 {
   std::vector<HeldDirection<dim>> held;
-  for (unsigned int k = 0; k < frame.directions.size(); ++k)
+  const auto                      q = frames.directions(h), dq = derivatives.directions(h);
+  for (unsigned int k = 0; k < q.size(); ++k)
     {
-      held.push_back({frame.directions[k], {}, frame.values[k][load_case], 0.});
-      if (derivative.directions.empty())
+      held.push_back({q[k], {}, frames.value(h, k, load_case), 0.});
+      if (dq.size() == 0)
         continue;
-      held[k].dq = derivative.directions[k];
-      held[k].ds = derivative.values[k][load_case];
+      held[k].dq = dq[k];
+      held[k].ds = derivatives.value(h, k, load_case);
     }
   return held;
 }
@@ -123,7 +125,7 @@ void Gluing<dim>::fill_B(unsigned int                s,
     {
       double value = entry.factor;
       if (entry.source == Source::held)
-        value *= now.held[entry.index].directions[entry.item][entry.dof % dim];
+        value *= now.held.directions(entry.index)[entry.item][entry.dof % dim];
       else if (entry.source == Source::contact)
         {
           const auto &c = now.row(entry.index).coefficients[entry.item];
@@ -148,7 +150,7 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
     {
       double value = 0.;
       if (entry.source == Source::held)
-        value = derivative.held[entry.index].directions[entry.item][entry.dof % dim];
+        value = derivative.held.directions(entry.index)[entry.item][entry.dof % dim];
       else if (entry.source == Source::spring)
         value = derivative.springs[entry.index].coefficients[entry.item].second[entry.dof % dim];
       else if (entry.source == Source::point)
@@ -163,7 +165,7 @@ void Gluing<dim>::fill_B_derivative(unsigned int                s,
             // Differentiate c <- c - sum_k (c . q_k) q_k by the product rule. 1 / nr in the factor
             // is a constant of the reference geometry. The values s do not enter B, so any load
             // case serves.
-            for (const auto &d : held_directions(now.held[h], derivative.held[h], 0))
+            for (const auto &d : held_directions(now.held, derivative.held, h, 0))
               result -= (dc * d.q + c.second * d.dq) * d.q + (c.second * d.q) * d.dq;
           value = result[entry.dof % dim];
         }
@@ -185,7 +187,7 @@ double Gluing<dim>::gap_derivative(unsigned int                i,
       const unsigned int h  = rows.held_of_surface[c.first];
       if (h == held.n_nodes())
         continue;
-      for (const auto &d : held_directions(now.held[h], derivative.held[h], load_case))
+      for (const auto &d : held_directions(now.held, derivative.held, h, load_case))
         // Differentiate the term of gap() by the product rule.
         result -= (dc * d.q + c.second * d.dq) * d.s + (c.second * d.q) * d.ds;
     }
@@ -204,7 +206,7 @@ qp::MultiVector Gluing<dim>::right_hand_side(const RowCoefficients<dim> &now,
         // The factor is 1 / nr, as that of the row itself.
         g(i) = row.factor * rows.gap(row.index, now, load_case);
       else if (row.source == Source::held)
-        g(i) = row.factor * now.held[row.index].values[row.item][load_case];
+        g(i) = row.factor * now.held.value(row.index, row.item, load_case);
       else if (row.source == Source::point)
         {
           const auto &motion = rows.held_motions[row.index];
@@ -229,7 +231,7 @@ qp::MultiVector Gluing<dim>::right_hand_side_derivative(const RowCoefficients<di
       // Prescribed displacements move with the material point, and s' comes from the rotating
       // frame.
       else if (row.source == Source::held && held.follows_positions(row.index))
-        g(i) = row.factor * derivative.held[row.index].values[row.item][load_case];
+        g(i) = row.factor * derivative.held.value(row.index, row.item, load_case);
     }
   return g;
 }
@@ -301,14 +303,14 @@ std::vector<std::vector<double>> Gluing<dim>::reactions(const qp::MultiVector   
         const unsigned int h = rows.held_of_surface[c.first];
         if (h == held.n_nodes())
           continue;
-        const auto &directions = now.held[h].directions;
+        const auto directions = now.held.directions(h);
         for (unsigned int k = 0; k < directions.size(); ++k)
           values[dim * h + k] -= forces[i] * (c.second * directions[k]);
       }
   std::vector<std::vector<double>> result;
   for (unsigned int h = 0; h < held.n_nodes(); ++h)
     result.emplace_back(values.begin() + dim * h,
-                        values.begin() + dim * h + now.held[h].directions.size());
+                        values.begin() + dim * h + now.held.directions(h).size());
   return result;
 }
 

@@ -187,7 +187,7 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
         continue;
       // One row holds the sum of the copies instead of each copy. With the gluing the effect is the
       // same, and the rows stay orthonormal.
-      const auto &directions = reference.held[h].directions;
+      const auto directions = reference.held.directions(h);
       for (unsigned int k = 0; k < directions.size(); ++k)
         {
           for (const unsigned int subdomain : subdomains)

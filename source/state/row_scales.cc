@@ -8,14 +8,14 @@
 namespace snug::state {
 template <int dim>
 dealii::Tensor<1, dim>
-GluingRows<dim>::projected(unsigned int                                       surface_node,
-                           const dealii::Tensor<1, dim>                      &coefficient,
-                           const std::vector<supports::ConstraintFrame<dim>> &frames) const
+GluingRows<dim>::projected(unsigned int                           surface_node,
+                           const dealii::Tensor<1, dim>          &coefficient,
+                           const supports::ConstraintFrames<dim> &frames) const
 {
   dealii::Tensor<1, dim> result = coefficient;
   if (held_of_surface[surface_node] < frames.size())
     // The q are orthonormal, so successive projections are the projection off all of them.
-    for (const auto &q : frames[held_of_surface[surface_node]].directions)
+    for (const auto &q : frames.directions(held_of_surface[surface_node]))
       result -= (result * q) * q;
   return result;
 }
@@ -31,10 +31,10 @@ double GluingRows<dim>::gap(const unsigned int          i,
       const unsigned int h = held_of_surface[c.first];
       if (h == held.n_nodes())
         continue;
-      const auto &frame = now.held[h];
-      for (unsigned int k = 0; k < frame.directions.size(); ++k)
+      const auto directions = now.held.directions(h);
+      for (unsigned int k = 0; k < directions.size(); ++k)
         // c . u = (projected c) . u + sum_k (c . q_k) (q_k . u), where q_k . u = s_k is known.
-        gap -= (c.second * frame.directions[k]) * frame.values[k][load_case];
+        gap -= (c.second * directions[k]) * now.held.value(h, k, load_case);
     }
   return gap;
 }
@@ -44,8 +44,7 @@ template <int dim>
 bool GluingRows<dim>::is_displaced(const unsigned int          i,
                                    const RowCoefficients<dim> &reference) const
 {
-  const auto n_load_cases =
-    reference.held.empty() ? 0u : narrow<unsigned int>(reference.held[0].values[0].size());
+  const auto n_load_cases = reference.held.size() == 0 ? 0u : reference.held.n_load_cases();
   for (unsigned int load_case = 0; load_case < n_load_cases; ++load_case)
     if (gap(i, reference, load_case) != 0.)
       return true;
@@ -156,13 +155,12 @@ void GluingRows<dim>::scale_rows(const RowCoefficients<dim>          &reference,
   drop_dependent_ties(reference);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                                    \
-  template dealii::Tensor<1, dim> GluingRows<dim>::projected(                                    \
-    unsigned int, const dealii::Tensor<1, dim> &,                                                \
-    const std::vector<supports::ConstraintFrame<dim>> &) const;                                  \
-  template double GluingRows<dim>::gap(unsigned int, const RowCoefficients<dim> &, unsigned int) \
-    const;                                                                                       \
-  template void GluingRows<dim>::scale_rows(const RowCoefficients<dim> &,                        \
+#define SNUG_INSTANTIATE(dim)                                                                     \
+  template dealii::Tensor<1, dim> GluingRows<dim>::projected(                                     \
+    unsigned int, const dealii::Tensor<1, dim> &, const supports::ConstraintFrames<dim> &) const; \
+  template double GluingRows<dim>::gap(unsigned int, const RowCoefficients<dim> &, unsigned int)  \
+    const;                                                                                        \
+  template void GluingRows<dim>::scale_rows(const RowCoefficients<dim> &,                         \
                                             const std::vector<contact::Tangent> &, double);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -3,6 +3,32 @@
 #include <algorithm>
 
 namespace snug::supports {
+template <int dim>
+void ConstraintFrames<dim>::reserve(const std::size_t n_nodes, const std::size_t n_directions)
+{
+  start.reserve(n_nodes + 1);
+  all_directions.reserve(n_directions);
+  values.reserve(n_directions * n_cases);
+}
+
+template <int dim>
+void ConstraintFrames<dim>::push_back(const ConstraintFrame<dim> &frame)
+{
+  all_directions.insert(all_directions.end(), frame.directions.begin(), frame.directions.end());
+  for (const auto &of_direction : frame.values)
+    values.insert(values.end(), of_direction.begin(), of_direction.end());
+  start.push_back(static_cast<unsigned int>(all_directions.size()));
+}
+
+template <int dim>
+void ConstraintFrames<dim>::add(const double factor, const ConstraintFrames &other)
+{
+  for (std::size_t i = 0; i < all_directions.size(); ++i)
+    all_directions[i] += factor * other.all_directions[i];
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] += factor * other.values[i];
+}
+
 // Gram-Schmidt keeps the order: the first direction stays as given, so that axes stay axes. The
 // prescribed values are transformed with the directions, because q_k . u = s_k must be equivalent
 // to d_j . u = v_j. L holds the factors, d = L q, for the derivatives and for the inverse
@@ -89,6 +115,8 @@ std::vector<double> Orthonormalised<dim>::given_multipliers(std::vector<double> 
   return multipliers;
 }
 
+template class ConstraintFrames<2>;
+template class ConstraintFrames<3>;
 template class Orthonormalised<2>;
 template class Orthonormalised<3>;
 } // namespace snug::supports

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <sstream>
+#include <utility>
 
 namespace snug::supports {
 namespace {
@@ -18,10 +17,6 @@ const double round_off = 1e-10;
 
 /// Prescribed values agree if they differ by less than this fraction of the maximum value.
 const double same_value = 1e-10;
-
-/// A node is at the place of a point support if its distance is below this fraction of the
-/// boundary.
-const double same_place = 1e-3;
 
 using Boundary = std::pair<unsigned int, unsigned int>;
 
@@ -96,133 +91,12 @@ DirichletConstraints<dim>::DirichletConstraints(const mesh::BodyMesh<dim>       
   for (unsigned int side = 0; side < sides.size(); ++side)
     for (const unsigned int face : sides[side])
       side_of_face[face] = side;
-  const auto reference = surface.gather(mesh.reference_positions());
-  Nodes      found;
-  collect_holds(supports, reference, found);
-  collect_points(points, reference, found);
-  store(found);
+  std::vector<Found> found;
+  Displacements      displacements;
+  collect_holds(supports, displacements, found);
+  collect_points(points, displacements, found);
+  store(std::move(found), displacements);
   leave_out_dependent(x);
-}
-
-template <int dim>
-void DirichletConstraints<dim>::add_hold(Nodes             &found,
-                                         const unsigned int node,
-                                         const Hold        &hold) const
-{
-  // A hanging node is held as far as its masters are, so a row of its own would repeat their rows.
-  if (!surface.masters(node).empty())
-    return;
-  auto &holds = found[node].holds;
-  // A node is on several faces of a boundary and of a side, but has one constraint for all of them.
-  const bool known = std::any_of(holds.begin(), holds.end(), [&](const Hold &other) {
-    return other.name == hold.name && other.component.number == hold.component.number &&
-           other.side == hold.side;
-  });
-  if (!known)
-    holds.push_back(hold);
-}
-
-template <int dim>
-void DirichletConstraints<dim>::collect_holds(const std::vector<Support<dim>> &supports,
-                                              const SurfaceField              &reference,
-                                              Nodes                           &found) const
-{
-  const bool axis = mesh.idealization().is_axisymmetric();
-  for (unsigned int f = 0; f < surface.faces().size(); ++f)
-    {
-      const auto &face = surface.faces()[f];
-      for (const unsigned int node : face.nodes)
-        // The comparison with zero is exact: meshes of revolution have exact zeros, and any other
-        // radius is off the axis.
-        if (axis && reference[node][0] == 0.)
-          add_hold(found, node,
-                   {"the axis of rotation", "", 0, 0, std::vector<double>(n_load_cases)});
-    }
-  for (const auto &support : supports)
-    for (unsigned int f = 0; f < surface.faces().size(); ++f)
-      {
-        const auto &face = surface.faces()[f];
-        if (face.body != support.body || face.boundary != support.boundary)
-          continue;
-        const bool normal = support.component.is_normal();
-        for (const unsigned int node : face.nodes)
-          {
-            Hold hold{support.name,
-                      support.face,
-                      support.component,
-                      normal ? side_of_face[f] : 0,
-                      std::vector<double>(n_load_cases),
-                      std::make_pair(support.body, support.boundary)};
-            for (unsigned int c = 0; c < support.values.size(); ++c)
-              if (support.values[c])
-                hold.values[c] = support.values[c](dealii::Point<dim>(reference[node]));
-            add_hold(found, node, hold);
-          }
-      }
-}
-
-/// Hold the node at each place.
-template <int dim>
-void DirichletConstraints<dim>::collect_points(const std::vector<PointSupport<dim>> &points,
-                                               const SurfaceField                   &reference,
-                                               Nodes                                &found) const
-{
-  std::map<Boundary, std::set<unsigned int>> nodes;
-  for (const auto &face : surface.faces())
-    nodes[{face.body, face.boundary}].insert(face.nodes.begin(), face.nodes.end());
-  for (const auto &point : points)
-    {
-      const auto &candidates = nodes[{point.body, point.boundary}];
-      const auto  distance   = [&](const unsigned int node) {
-        return (reference[node] - point.place).norm();
-      };
-      const auto nearest =
-        std::min_element(candidates.begin(), candidates.end(),
-                         [&](const auto a, const auto b) { return distance(a) < distance(b); });
-      double size = 0.;
-      for (const unsigned int node : candidates)
-        size = std::max(size, distance(node));
-      if (nearest == candidates.end() || distance(*nearest) > same_place * size)
-        {
-          std::ostringstream text;
-          text << point.name << ": there is no node of '" << point.face << "' at (" << point.place
-               << ")";
-          if (nearest != candidates.end())
-            text << "; the nearest one is at (" << reference[*nearest] << ")";
-          throw InputError(text.str());
-        }
-      add_hold(found, *nearest,
-               {point.name, point.face, point.component, 0,
-                std::vector<double>(n_load_cases, point.value),
-                std::make_pair(point.body, point.boundary)});
-    }
-}
-
-template <int dim>
-void DirichletConstraints<dim>::store(const Nodes &found)
-{
-  for (const auto &entry : found)
-    {
-      nodes.push_back(entry.second);
-      nodes.back().surface_node = entry.first;
-      // Sort constant directions first, because orthonormalization keeps the first directions as
-      // they are. The rows of constant directions have no derivatives.
-      std::stable_sort(nodes.back().holds.begin(), nodes.back().holds.end(),
-                       [](const Hold &a, const Hold &b) {
-                         return !a.component.follows_positions() && b.component.follows_positions();
-                       });
-    }
-}
-
-template <int dim>
-double DirichletConstraints<dim>::largest_value() const
-{
-  double largest = 0.;
-  for (const Node &node : nodes)
-    for (const Hold &hold : node.holds)
-      for (const double value : hold.values)
-        largest = std::max(largest, std::abs(value));
-  return largest;
 }
 
 // Two supports may hold a node along one direction, such as faces that meet at an edge. With both
@@ -230,32 +104,40 @@ double DirichletConstraints<dim>::largest_value() const
 template <int dim>
 void DirichletConstraints<dim>::leave_out_dependent(const SurfaceField &positions)
 {
-  const auto   n         = normals(positions);
-  const double tolerance = same_value * largest_value();
-  double       size      = 0.;
+  const auto n       = normals(positions);
+  double     largest = 0., size = 0.;
+  for (const double value : values)
+    largest = std::max(largest, std::abs(value));
+  const double tolerance = same_value * largest;
   for (const auto &x : positions)
     size = std::max(size, (x - positions[0]).norm());
-  for (Node &node : nodes)
+  std::size_t end = 0; // of the constraints that stay
+  for (unsigned int i = 0; i < n_nodes(); ++i)
     {
-      std::vector<Hold> given;
-      given.swap(node.holds);
-      for (const Hold &hold : given)
+      const unsigned int node  = surface_nodes[i];
+      const auto        &x     = positions[node];
+      const std::size_t  first = end;
+      for (std::size_t j = std::exchange(first_hold[i], end); j < first_hold[i + 1]; ++j)
         {
-          const auto &x = positions[node.surface_node];
-          if (hold.component.turns() && hold.component.lever(x).norm() <= round_off * size)
-            throw InputError(hold.name + ": " + node_at(x) +
+          const Holder &holder = holders[holds[j].holder];
+          if (holder.component.turns() && holder.component.lever(x).norm() <= round_off * size)
+            throw InputError(holder.name + ": " + node_at(x) +
                              " on the axis has no radial and tangential components");
-          const Orthonormalised<dim> before(given_frame(node, positions, n));
-          node.holds.push_back(hold);
-          const auto                 all = given_frame(node, positions, n);
+          holds[end] = holds[j];
+          std::copy_n(values.data() + j * n_load_cases, n_load_cases,
+                      values.data() + end * n_load_cases);
+          const auto                 all = given_frame(node, first, end + 1, positions, n);
           const Orthonormalised<dim> with(all);
           if (with.independence() > dependent_sine)
-            continue;
-          node.holds.pop_back();
+            {
+              ++end;
+              continue;
+            }
           // displacement that the other constraints imply in the same direction
-          const auto &frame   = before.frame();
-          unsigned    nearest = 0;
-          auto        implied = std::vector<double>(n_load_cases, 0.);
+          const Orthonormalised<dim> before(given_frame(node, first, end, positions, n));
+          const auto                &frame   = before.frame();
+          unsigned                   nearest = 0;
+          auto                       implied = std::vector<double>(n_load_cases, 0.);
           for (unsigned int k = 0; k < frame.directions.size(); ++k)
             {
               const double share = all.directions.back() * frame.directions[k];
@@ -265,15 +147,20 @@ void DirichletConstraints<dim>::leave_out_dependent(const SurfaceField &position
                 nearest = k;
             }
           for (unsigned int c = 0; c < n_load_cases; ++c)
-            if (std::abs(implied[c] - hold.values[c]) > tolerance)
-              throw conflict(x, {node.holds[nearest].name, implied[c]},
-                             {hold.name, hold.values[c]});
+            if (const double value = all.values.back()[c]; std::abs(implied[c] - value) > tolerance)
+              throw conflict(x, {holders[holds[first + nearest].holder].name, implied[c]},
+                             {holder.name, value});
         }
-      for (const Hold &hold : node.holds)
-        node.follows = node.follows || hold.component.follows_positions();
-      any_follows = any_follows || node.follows;
-      constant_frames.push_back(Orthonormalised<dim>(given_frame(node, positions, n)).frame());
     }
+  first_hold.back() = static_cast<unsigned int>(end);
+  holds.resize(end);
+  values.resize(end * n_load_cases);
+  for (auto *numbers : {&surface_nodes, &first_hold})
+    numbers->shrink_to_fit();
+  holds.shrink_to_fit();
+  values.shrink_to_fit();
+  for (unsigned int i = 0; i < n_nodes(); ++i)
+    any_follows = any_follows || follows_positions(i);
 }
 
 template <int dim>
@@ -287,18 +174,30 @@ DirichletConstraints<dim>::normals(const SurfaceField &positions) const
 }
 
 template <int dim>
-ConstraintFrame<dim> DirichletConstraints<dim>::given_frame(const Node         &node,
+unsigned int DirichletConstraints<dim>::n_constant(const unsigned int held_node) const
+{
+  unsigned int end = first_hold[held_node];
+  while (end < first_hold[held_node + 1] && !component(end).follows_positions())
+    ++end;
+  return end - first_hold[held_node];
+}
+
+template <int dim>
+ConstraintFrame<dim> DirichletConstraints<dim>::given_frame(const unsigned int  surface_node,
+                                                            const std::size_t   first,
+                                                            const std::size_t   end,
                                                             const SurfaceField &positions,
                                                             const Normals      &n) const
 {
   ConstraintFrame<dim> frame;
-  for (const Hold &hold : node.holds)
+  for (std::size_t j = first; j < end; ++j)
     {
       dealii::Tensor<1, dim> normal;
-      if (hold.component.is_normal())
-        normal = n[hold.side].normals()[node.surface_node];
-      frame.directions.push_back(hold.component.direction(positions[node.surface_node], normal));
-      frame.values.push_back(hold.values);
+      if (component(j).is_normal())
+        normal = n[holds[j].side].normals()[surface_node];
+      frame.directions.push_back(component(j).direction(positions[surface_node], normal));
+      const auto value = values.begin() + j * n_load_cases;
+      frame.values.emplace_back(value, value + n_load_cases);
     }
   return frame;
 }
@@ -306,33 +205,32 @@ ConstraintFrame<dim> DirichletConstraints<dim>::given_frame(const Node         &
 template <int dim>
 unsigned int DirichletConstraints<dim>::find(unsigned int global_node) const
 {
-  const auto found = std::lower_bound(nodes.begin(), nodes.end(), global_node,
-                                      [this](const Node &node, unsigned int global) {
-                                        return surface.global_node(node.surface_node) < global;
+  const auto found = std::lower_bound(surface_nodes.begin(), surface_nodes.end(), global_node,
+                                      [this](const unsigned int node, const unsigned int global) {
+                                        return surface.global_node(node) < global;
                                       });
-  return found != nodes.end() && surface.global_node(found->surface_node) == global_node
-           ? found - nodes.begin()
-           : nodes.size();
+  return found != surface_nodes.end() && surface.global_node(*found) == global_node
+           ? found - surface_nodes.begin()
+           : n_nodes();
 }
 
 template <int dim>
 typename DirichletConstraints<dim>::Frames
 DirichletConstraints<dim>::frames(const Field &positions) const
 {
-  if (!follow_positions())
-    return constant_frames;
-  Frames     result = constant_frames;
-  const auto x      = surface.gather(positions);
-  const auto n      = normals(x);
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    if (nodes[i].follows)
-      {
-        const Orthonormalised<dim> constraints(given_frame(nodes[i], x, n));
-        // The condition is written so that it also catches NaN.
-        if (!(constraints.independence() > dependent_sine))
-          throw dependent_error(x[nodes[i].surface_node]);
-        result[i] = constraints.frame();
-      }
+  // Constant directions are the same at all positions.
+  const auto x = any_follows ? surface.gather(positions) : surface.reference_positions();
+  const auto n = any_follows ? normals(x) : Normals();
+  Frames     result(n_load_cases);
+  result.reserve(n_nodes(), holds.size());
+  for (unsigned int i = 0; i < n_nodes(); ++i)
+    {
+      const Orthonormalised<dim> constraints(given_frame(i, x, n));
+      // The condition is written so that it also catches NaN.
+      if (follows_positions(i) && !(constraints.independence() > dependent_sine))
+        throw dependent_error(x[surface_nodes[i]]);
+      result.push_back(constraints.frame());
+    }
   return result;
 }
 
@@ -346,7 +244,10 @@ faces::HeldDirections<dim> DirichletConstraints<dim>::directions(const mesh::Sur
     {
       const unsigned int held_node = find(surface.global_node(node));
       if (held_node < n_nodes())
-        result[node] = at_nodes[held_node].directions;
+        {
+          const auto held = at_nodes.directions(held_node);
+          result[node].assign(held.begin(), held.end());
+        }
     }
   return result;
 }
@@ -355,31 +256,33 @@ template <int dim>
 typename DirichletConstraints<dim>::Frames
 DirichletConstraints<dim>::frame_derivatives(const Field &positions, const Field &velocity) const
 {
-  Frames result(nodes.size());
-  if (!follow_positions())
-    return result;
-  const auto                x = surface.gather(positions);
-  const auto                V = surface.gather(velocity);
-  const auto                n = normals(x);
+  const bool                follow = follow_positions();
+  const auto                x      = follow ? surface.gather(positions) : SurfaceField();
+  const auto                V      = follow ? surface.gather(velocity) : SurfaceField();
+  const auto                n      = follow ? normals(x) : Normals();
   std::vector<SurfaceField> dn;
   for (const auto &side : n)
     dn.push_back(side.derivative(V));
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    if (nodes[i].follows)
-      {
-        ConstraintFrame<dim> derivative;
-        for (const Hold &hold : nodes[i].holds)
-          {
-            const unsigned int node = nodes[i].surface_node;
-            derivative.directions.push_back(hold.component.is_normal()
-                                              ? dn[hold.side][node]
-                                              : hold.component.derivative(x[node]) * V[node]);
-            // Prescribed displacements are functions of the reference position, so their
-            // derivatives are 0.
-            derivative.values.emplace_back(n_load_cases, 0.);
-          }
-        result[i] = Orthonormalised<dim>(given_frame(nodes[i], x, n)).derivative(derivative);
-      }
+  Frames result(n_load_cases);
+  for (unsigned int i = 0; i < n_nodes(); ++i)
+    {
+      ConstraintFrame<dim> derivative;
+      if (follows_positions(i))
+        {
+          const unsigned int node = surface_nodes[i];
+          for (unsigned int j = first_hold[i]; j < first_hold[i + 1]; ++j)
+            {
+              derivative.directions.push_back(component(j).is_normal()
+                                                ? dn[holds[j].side][node]
+                                                : component(j).derivative(x[node]) * V[node]);
+              // Prescribed displacements are functions of the reference position, so their
+              // derivatives are 0.
+              derivative.values.emplace_back(n_load_cases, 0.);
+            }
+          derivative = Orthonormalised<dim>(given_frame(i, x, n)).derivative(derivative);
+        }
+      result.push_back(derivative);
+    }
   return result;
 }
 

@@ -17,22 +17,20 @@ void DirichletConstraints<dim>::add_energy_gradient(
   const auto                n = normals(x);
   std::vector<SurfaceField> normal_gradients(sides.size(), SurfaceField(surface.n_nodes()));
   SurfaceField              at_surface(surface.n_points());
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    if (nodes[i].follows)
+  for (unsigned int i = 0; i < n_nodes(); ++i)
+    if (follows_positions(i))
       {
-        const Node &node = nodes[i];
+        const unsigned int node = surface_nodes[i], first = first_hold[i];
         // Reactions belong to orthonormal directions, but normals and the directions about an axis
         // are given directions d_j. Add the derivative of d_j . u - v_j with constant v_j.
         const auto multipliers =
-          Orthonormalised<dim>(given_frame(node, x, n)).given_multipliers(reactions[i]);
-        for (unsigned int j = 0; j < node.holds.size(); ++j)
+          Orthonormalised<dim>(given_frame(i, x, n)).given_multipliers(reactions[i]);
+        for (unsigned int j = 0; j < multipliers.size(); ++j)
           {
-            const Hold &hold = node.holds[j];
-            const auto  of_d = multipliers[j] * u[node.surface_node];
-            at_surface[node.surface_node] +=
-              transpose(hold.component.derivative(x[node.surface_node])) * of_d;
-            if (hold.component.is_normal())
-              normal_gradients[hold.side][node.surface_node] += of_d;
+            const auto of_d = multipliers[j] * u[node];
+            at_surface[node] += transpose(component(first + j).derivative(x[node])) * of_d;
+            if (component(first + j).is_normal())
+              normal_gradients[holds[first + j].side][node] += of_d;
           }
       }
   for (unsigned int side = 0; side < sides.size(); ++side)
@@ -51,14 +49,15 @@ DirichletConstraints<dim>::forces(const Field                            &positi
   const auto         n      = normals(x);
   const auto         bodies = surface.bodies_of_points();
   std::vector<Force> result;
-  for (unsigned int i = 0; i < nodes.size(); ++i)
+  for (unsigned int i = 0; i < n_nodes(); ++i)
     {
-      const auto frame       = given_frame(nodes[i], x, n);
+      const auto node        = surface_nodes[i];
+      const auto frame       = given_frame(i, x, n);
       const auto multipliers = Orthonormalised<dim>(frame).given_multipliers(reactions[i]);
       for (unsigned int j = 0; j < multipliers.size(); ++j)
         // From K u + B'lambda = f, a multiplier acts against its direction.
-        result.push_back({nodes[i].holds[j].face, bodies[nodes[i].surface_node],
-                          x[nodes[i].surface_node], -multipliers[j] * frame.directions[j]});
+        result.push_back({holders[holds[first_hold[i] + j].holder].face, bodies[node], x[node],
+                          -multipliers[j] * frame.directions[j]});
     }
   return result;
 }
@@ -72,15 +71,18 @@ dealii::Tensor<2, dim> DirichletConstraints<dim>::reaction_directions(
   if (held_node == n_nodes())
     return {};
   // Constant directions come first, so that they are orthonormal among themselves.
-  const auto            &q = constant_frames[held_node].directions;
+  const unsigned int         first = first_hold[held_node], n = n_constant(held_node);
+  const Orthonormalised<dim> constant(
+    given_frame(surface_nodes[held_node], first, first + n, surface.reference_positions(), {}));
+  const auto &q              = constant.frame().directions;
+  const auto  is_of_boundary = [&](const unsigned int j) {
+    return holders[holds[first + j].holder].boundary == boundary;
+  };
   dealii::Tensor<2, dim> of_boundary, of_others;
-  for (unsigned int j = 0; j < q.size(); ++j)
-    if (const Hold &hold = nodes[held_node].holds[j]; !hold.component.follows_positions())
-      (hold.boundary == boundary ? of_boundary : of_others) += outer_product(q[j], q[j]);
-    else if (hold.boundary == boundary)
-      return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
-    else
-      break;
+  for (unsigned int j = 0; j < n; ++j)
+    (is_of_boundary(j) ? of_boundary : of_others) += outer_product(q[j], q[j]);
+  if (follows_positions(held_node) && is_of_boundary(n))
+    return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - of_others;
   return of_boundary;
 }
 

@@ -62,7 +62,7 @@ void Bonded::number_unknowns(const state::StateSolver<dim> &solver)
       const unsigned int h = solver.held().find(solver.mesh().global_node(node));
       if (h == solver.held().n_nodes())
         continue;
-      for (const auto &direction : frames[h].directions)
+      for (const auto &direction : frames.directions(h))
         for (unsigned int c = 0; c < dim; ++c)
           if (direction[c] == 1.)
             is_held[unknown[dim * node + c]] = true;

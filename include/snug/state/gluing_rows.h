@@ -25,13 +25,13 @@ struct PointEntries
 template <int dim>
 struct RowCoefficients
 {
-  std::vector<contact::Row<dim>>              contact;
-  std::vector<contact::Row<dim>>              tangents; ///< tangential rows of contacts
-  std::vector<supports::ConstraintFrame<dim>> held;     ///< per held node
-  std::vector<SpringRow<dim>>                 springs = {};
-  std::vector<contact::Row<dim>>              ties    = {}; ///< rows of tied pairs
-  std::vector<contact::Row<dim>> followers = {}; ///< rows of faces that follow reference points
-  std::vector<PointEntries>      points    = {}; ///< ascending by row
+  std::vector<contact::Row<dim>>  contact;
+  std::vector<contact::Row<dim>>  tangents; ///< tangential rows of contacts
+  supports::ConstraintFrames<dim> held;     ///< per held node
+  std::vector<SpringRow<dim>>     springs   = {};
+  std::vector<contact::Row<dim>>  ties      = {}; ///< rows of tied pairs
+  std::vector<contact::Row<dim>>  followers = {}; ///< rows of faces that follow reference points
+  std::vector<PointEntries>       points    = {}; ///< ascending by row
 
   /// @name Normal rows, then tangential rows, then rows of ties, then rows of followers
   /// @{
@@ -115,9 +115,9 @@ public:
 
   /// Return the part of a coefficient at a surface node that remains after projecting it off the
   /// directions held there.
-  dealii::Tensor<1, dim> projected(unsigned int                                       surface_node,
-                                   const dealii::Tensor<1, dim>                      &coefficient,
-                                   const std::vector<supports::ConstraintFrame<dim>> &frames) const;
+  dealii::Tensor<1, dim> projected(unsigned int                           surface_node,
+                                   const dealii::Tensor<1, dim>          &coefficient,
+                                   const supports::ConstraintFrames<dim> &frames) const;
 
   /// Return the gap of row @p i in a load case, minus the part that the displacements held at its
   /// nodes take [length].

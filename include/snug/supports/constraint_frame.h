@@ -1,6 +1,7 @@
 #ifndef snug_supports_constraint_frame_h
 #define snug_supports_constraint_frame_h
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/tensor.h>
 
 #include <vector>
@@ -15,6 +16,41 @@ struct ConstraintFrame
 {
   std::vector<dealii::Tensor<1, dim>> directions;
   std::vector<std::vector<double>>    values; ///< [j][load case]
+};
+
+/// Frames of many nodes, in one array each of directions and values. Frames of derivatives may be
+/// empty.
+template <int dim>
+class ConstraintFrames
+{
+public:
+  explicit ConstraintFrames(unsigned int n_load_cases = 0) : n_cases(n_load_cases) {}
+
+  /// Make room for @p n_nodes frames with @p n_directions directions in all.
+  void reserve(std::size_t n_nodes, std::size_t n_directions);
+  void push_back(const ConstraintFrame<dim> &frame);
+
+  /// Add factor * @p other, which has the same numbers of directions.
+  void add(double factor, const ConstraintFrames &other);
+
+  unsigned int size() const { return static_cast<unsigned int>(start.size() - 1); }
+  unsigned int n_load_cases() const { return n_cases; }
+
+  /// Return the directions of a frame. The view is valid as long as this object is unchanged.
+  dealii::ArrayView<const dealii::Tensor<1, dim>> directions(unsigned int frame) const
+  {
+    return {all_directions.data() + start[frame], start[frame + 1] - start[frame]};
+  }
+  double value(unsigned int frame, unsigned int direction, unsigned int load_case) const
+  {
+    return values[(std::size_t(start[frame]) + direction) * n_cases + load_case];
+  }
+
+private:
+  unsigned int                        n_cases;
+  std::vector<unsigned int>           start{0}; ///< first direction of each frame
+  std::vector<dealii::Tensor<1, dim>> all_directions;
+  std::vector<double>                 values; ///< n_cases per direction
 };
 
 /**

@@ -6,7 +6,7 @@
 #include <snug/supports/constraint_frame.h>
 #include <snug/supports/support.h>
 
-#include <map>
+#include <functional>
 #include <optional>
 
 namespace snug::supports {
@@ -30,7 +30,7 @@ class DirichletConstraints
 {
 public:
   using Field  = mesh::Field<dim>;
-  using Frames = std::vector<ConstraintFrame<dim>>; ///< per held node
+  using Frames = ConstraintFrames<dim>; ///< per held node
 
   /// Collect the constraints. @p mesh must outlive this object. Collective.
   /// @throws InputError naming two supports that hold a node in one direction at different
@@ -43,13 +43,16 @@ public:
                        const std::vector<PointSupport<dim>> &points = {});
 
   /// Return the number of held nodes, which are ascending by global node.
-  unsigned int n_nodes() const { return nodes.size(); }
+  unsigned int n_nodes() const { return static_cast<unsigned int>(surface_nodes.size()); }
   /// Return the held node with this global node, or n_nodes() if the node is not held.
   unsigned int find(unsigned int global_node) const;
 
   /// Return whether the directions of a node follow the positions (normals, radial or
   /// tangential components are held).
-  bool follows_positions(unsigned int held_node) const { return nodes[held_node].follows; }
+  bool follows_positions(unsigned int held_node) const
+  {
+    return n_constant(held_node) < first_hold[held_node + 1] - first_hold[held_node];
+  }
   /// Return whether the directions of any node follow the positions.
   bool follow_positions() const { return any_follows; }
 
@@ -100,40 +103,62 @@ private:
   using SurfaceField = typename mesh::Surface<dim>::Field;
   using Normals      = std::vector<faces::NodalNormals<dim>>; ///< one per side
 
+  /// What holds nodes: a support, a support of one node, or the axis.
+  struct Holder
+  {
+    std::string    name; ///< name of the support
+    std::string    face; ///< face of the support; "" for the axis
+    Component<dim> component;
+    /// body and boundary of the support; none for the axis
+    std::optional<std::pair<unsigned int, unsigned int>> boundary;
+  };
+
   /// One constraint of a node.
   struct Hold
   {
-    std::string         name; ///< name of the support
-    std::string         face; ///< face of the support; "" for the axis
-    Component<dim>      component;
-    unsigned int        side;   ///< side to which the normal belongs
-    std::vector<double> values; ///< per load case [length]
-    /// body and boundary of the support; none for the axis
-    std::optional<std::pair<unsigned int, unsigned int>> boundary = {};
+    unsigned int holder, side; ///< side to which the normal belongs
   };
 
-  struct Node
+  struct Found
   {
-    unsigned int      surface_node;
-    std::vector<Hold> holds;
-    bool              follows = false;
+    unsigned int surface_node;
+    Hold         hold;
   };
 
-  using Nodes = std::map<unsigned int, Node>; ///< by surface node
+  /// Prescribed displacements of each holder per load case [length]. Missing and empty functions
+  /// are zero.
+  using Displacements = std::vector<std::vector<std::function<double(const dealii::Point<dim> &)>>>;
 
   void    collect_holds(const std::vector<Support<dim>> &supports,
-                        const SurfaceField              &reference,
-                        Nodes                           &found) const;
+                        Displacements                   &displacements,
+                        std::vector<Found>              &found);
   void    collect_points(const std::vector<PointSupport<dim>> &points,
-                         const SurfaceField                   &reference,
-                         Nodes                                &found) const;
-  void    add_hold(Nodes &found, unsigned int node, const Hold &hold) const;
-  void    store(const Nodes &found);
+                         Displacements                        &displacements,
+                         std::vector<Found>                   &found);
+  void    store(std::vector<Found> found, const Displacements &displacements);
+  bool    is_equal(const Hold &a, const Hold &b) const;
   void    leave_out_dependent(const SurfaceField &positions);
-  double  largest_value() const;
   Normals normals(const SurfaceField &positions) const;
+
+  const Component<dim> &component(const std::size_t hold) const
+  {
+    return holders[holds[hold].holder].component;
+  }
+  /// Return the number of constraints of a node that do not follow the positions. They come first.
+  unsigned int n_constant(unsigned int held_node) const;
+
+  /// Return the given constraints @p first to @p end, which belong to one node.
+  ConstraintFrame<dim> given_frame(unsigned int        surface_node,
+                                   std::size_t         first,
+                                   std::size_t         end,
+                                   const SurfaceField &positions,
+                                   const Normals      &normals) const;
   ConstraintFrame<dim>
-  given_frame(const Node &node, const SurfaceField &positions, const Normals &normals) const;
+  given_frame(unsigned int held_node, const SurfaceField &positions, const Normals &normals) const
+  {
+    return given_frame(surface_nodes[held_node], first_hold[held_node], first_hold[held_node + 1],
+                       positions, normals);
+  }
 
   const mesh::BodyMesh<dim>             &mesh;
   const faces::FaceShape<dim>            shape;
@@ -141,9 +166,12 @@ private:
   mesh::Surface<dim>                     surface;
   std::vector<std::vector<unsigned int>> sides; ///< surface faces per side
   std::vector<unsigned int>              side_of_face;
-  std::vector<Node>                      nodes;
+  std::vector<Holder>                    holders;
+  std::vector<unsigned int>              surface_nodes; ///< of the held nodes, ascending
+  std::vector<unsigned int>              first_hold;    ///< of each held node, and the end
+  std::vector<Hold>                      holds;
+  std::vector<double>                    values; ///< n_load_cases per hold [length]
   bool                                   any_follows = false;
-  Frames                                 constant_frames;
 };
 } // namespace snug::supports
 
