@@ -70,6 +70,7 @@ public:
         projections.emplace_back(surface, pair.shape, projection, pair.positions, normals.values());
         nodes.with_rows.push_back(slave);
       }
+    projections.shrink_to_fit();
   }
 
   SlaveNodes nodes;

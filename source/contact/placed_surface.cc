@@ -27,16 +27,18 @@ template <int dim>
 PlacedSurface<dim>::PlacedSurface(const mesh::Surface<dim> &surface, const Position<dim> &position)
   : original(surface)
 {
-  body       = surface.bodies_of_points();
-  bool moves = false;
-  for (const unsigned int b : body)
+  auto bodies = surface.bodies_of_points();
+  bool moves  = false;
+  for (const unsigned int b : bodies)
     for (unsigned int i = motions.size(); i <= b; ++i)
       {
         motions.push_back(position.of_body(i));
         moves = moves || !motions.back().is_identity();
       }
-  if (moves)
-    placed = std::make_unique<const mesh::Surface<dim>>(surface.moved(motions));
+  if (!moves)
+    return;
+  placed = std::make_unique<const mesh::Surface<dim>>(surface.moved(motions));
+  body   = std::move(bodies);
 }
 
 template <int dim>

@@ -69,7 +69,7 @@ public:
 
 private:
   const mesh::Surface<dim>                 &original;
-  std::vector<unsigned int>                 body; ///< per point
+  std::vector<unsigned int>                 body; ///< per point; empty if no body moves
   std::vector<geometry::RigidMotion<dim>>   motions;
   std::unique_ptr<const mesh::Surface<dim>> placed; ///< null: no body moves
 };
