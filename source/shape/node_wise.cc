@@ -64,7 +64,8 @@ template <int dim>
 Modes<dim> node_wise(const ShapedFace<dim> &face, const ShapeParameters &parameters)
 {
   const double radius = parameters.filter_radius;
-  const auto   d      = face_directions(face, parameters);
+  auto         d      = face_directions(face, parameters);
+  d.resize(face.surface().n_nodes());
   // A positive radius below the distance of the nodes is valid and means no filter: the row of
   // each node contains only the variable of the node.
   if (!(radius > 0.) || !std::isfinite(radius))
@@ -87,16 +88,20 @@ Modes<dim> node_wise(const ShapedFace<dim> &face, const ShapeParameters &paramet
       }
   auto weights = filter_weights(places, areas, radius);
   lead_to_fixed(places, fixed_points(modes.controls, parameters), radius, weights);
-  modes.n_nodes   = face.surface().n_nodes();
-  using Rows      = std::vector<typename Modes<dim>::Row>;
-  const auto kept = std::make_shared<Rows>(modes.n_nodes);
-  auto      &rows = *kept;
+  modes.n_nodes = face.surface().n_nodes();
+  // Both functions share the weights, which take less memory than rows.
+  const auto kept = std::make_shared<std::vector<Weights>>(modes.n_nodes);
   for (unsigned int i = 0; i < nodes.size(); ++i)
-    for (const auto &weight : weights[i])
-      rows[nodes[i]].emplace_back(weight.first, weight.second * d[nodes[i]]);
-  modes.row          = [kept](unsigned int node) { return (*kept)[node]; };
+    (*kept)[nodes[i]] = weights[i];
+  modes.row = [kept, d](unsigned int node) {
+    typename Modes<dim>::Row row;
+    row.reserve((*kept)[node].size());
+    for (const auto &weight : (*kept)[node])
+      row.emplace_back(weight.first, weight.second * d[node]);
+    return row;
+  };
   modes.limits       = removal_limits(face, modes.n_variables, d, parameters);
-  modes.row_at_point = [kept, nodes](unsigned int i) { return (*kept)[nodes[i]]; };
+  modes.row_at_point = [row = modes.row, nodes](unsigned int i) { return row(nodes[i]); };
   return modes;
 }
 
