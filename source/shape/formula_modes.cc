@@ -98,11 +98,22 @@ dealii::Tensor<1, dim> FormulaFields<dim>::value(const unsigned int            i
 template <int dim>
 Modes<dim> formula_modes(const ShapedFace<dim> &face, const ShapeParameters &parameters)
 {
-  const FormulaFields<dim> fields(parameters);
-  const auto               everywhere = [](unsigned int) { return true; };
+  const FormulaFields<dim>   fields(parameters);
+  const auto                 points = face.needed_points();
+  typename Modes<dim>::Field positions;
+  for (const unsigned int point : points)
+    positions.push_back(face.positions()[point]);
+  // A formula may have no finite value at a sample that only one rank has. All ranks must throw
+  // then.
+  const auto make = [&](const auto &on_face) {
+    Modes<dim> modes;
+    throw_collectively(face.mesh().communicator(), [&]() {
+      modes = modes_at<dim>(fields, positions, [](unsigned int) { return true; }, on_face);
+    });
+    return modes;
+  };
   if (!fields.need_coordinates())
-    return modes_at<dim>(fields, face.positions(), everywhere,
-                         [](unsigned int) { return std::vector<double>(); });
+    return make([](unsigned int) { return std::vector<double>(); });
   const FaceCoordinates<dim> coordinates(face, parameters);
   const bool                 has_angle = coordinates.kind() == Coordinates::angle;
   if (fields.contain("angle") && !has_angle)
@@ -111,11 +122,11 @@ Modes<dim> formula_modes(const ShapedFace<dim> &face, const ShapeParameters &par
   const auto  &first  = coordinates.axis(0);
   const auto  &along  = coordinates.axis(has_angle ? dim - 2 : 0);
   const double length = along.range * along.unit;
-  return modes_at<dim>(fields, face.positions(), everywhere, [&](unsigned int point) {
+  return make([&](unsigned int i) {
     std::vector<double> values;
     for (unsigned int a = 0; a < dim - 1; ++a)
-      values.push_back(coordinates.axis(a).values[point]);
-    values.push_back(first.lower + first.values[point]);
+      values.push_back(coordinates.axis(a).values[points[i]]);
+    values.push_back(first.lower + first.values[points[i]]);
     values.push_back(length);
     return values;
   });

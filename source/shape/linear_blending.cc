@@ -187,9 +187,8 @@ public:
   using Field     = typename Interior<dim>::Field;
   using FaceField = typename Interior<dim>::FaceField;
 
-  LinearBlending(const ShapedFace<dim> &face, const double reach) : face(face)
+  LinearBlending(const ShapedFace<dim> &face, const double reach) : mesh(face.mesh())
   {
-    const auto &mesh = face.mesh();
     // Curved, turned and graded boxes are axis-parallel in logical coordinates as well. The face
     // point below or above a node therefore has the same tangential coordinates as the node.
     const LogicalFaces<dim> faces(face);
@@ -210,7 +209,7 @@ public:
 
   Field extend(const FaceField &moves) const override
   {
-    Field result(face.mesh().n_local_nodes());
+    Field result(mesh.n_local_nodes());
     for (const NodeWeights &row : rows)
       for (const auto &weight : row.weights)
         result[row.node] += weight.second * moves[weight.first];
@@ -225,8 +224,8 @@ private:
     std::vector<std::pair<unsigned int, double>> weights;
   };
 
-  const ShapedFace<dim>   &face;
-  std::vector<NodeWeights> rows;
+  const mesh::BodyMesh<dim> &mesh;
+  std::vector<NodeWeights>   rows;
 };
 } // namespace
 

@@ -61,13 +61,11 @@ plane_normals(const mesh::Surface<dim>                 &surface,
 
 template <int dim>
 NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
-  : face(face)
-  , face_nodes(face.mesh().n_local_nodes(), none)
-  , projectors(face.mesh().n_local_nodes())
+  : face_nodes(face.mesh().n_local_nodes(), none), projectors(face.mesh().n_local_nodes())
 {
-  find_face_nodes();
-  free_near_nodes(reach);
-  constrain_boundary_nodes();
+  find_face_nodes(face);
+  free_near_nodes(face, reach);
+  constrain_boundary_nodes(face);
   for (unsigned int node = 0; node < face_nodes.size(); ++node)
     if (face_nodes[node] != none)
       projectors[node] = 0.;
@@ -75,7 +73,7 @@ NodeRoles<dim>::NodeRoles(const ShapedFace<dim> &face, const double reach)
 
 /// Nodes are found by their global numbers, because the face is gathered from all ranks.
 template <int dim>
-void NodeRoles<dim>::find_face_nodes()
+void NodeRoles<dim>::find_face_nodes(const ShapedFace<dim> &face)
 {
   const auto &surface = face.surface();
   for (unsigned int node = 0; node < face_nodes.size(); ++node)
@@ -88,7 +86,7 @@ void NodeRoles<dim>::find_face_nodes()
 
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>>
-NodeRoles<dim>::other_boundaries(const bool touching) const
+NodeRoles<dim>::other_boundaries(const ShapedFace<dim> &face, const bool touching) const
 {
   const auto               &mesh = face.mesh();
   const unsigned int        n    = mesh.geometry(face.body()).boundary_names().size();
@@ -110,7 +108,7 @@ NodeRoles<dim>::other_boundaries(const bool touching) const
 
 /// Nodes of other bodies stay, because bodies have no nodes in common.
 template <int dim>
-void NodeRoles<dim>::free_near_nodes(const double reach)
+void NodeRoles<dim>::free_near_nodes(const ShapedFace<dim> &face, const double reach)
 {
   const auto           &mesh = face.mesh();
   const NearPoints<dim> near(face.positions());
@@ -122,11 +120,11 @@ void NodeRoles<dim>::free_near_nodes(const double reach)
 
 /// A node of both a held and a sliding boundary is held.
 template <int dim>
-void NodeRoles<dim>::constrain_boundary_nodes()
+void NodeRoles<dim>::constrain_boundary_nodes(const ShapedFace<dim> &face)
 {
   const auto              &mesh = face.mesh();
-  const mesh::Surface<dim> held(mesh, other_boundaries(false));
-  const mesh::Surface<dim> sliding(mesh, other_boundaries(true));
+  const mesh::Surface<dim> held(mesh, other_boundaries(face, false));
+  const mesh::Surface<dim> sliding(mesh, other_boundaries(face, true));
   const auto               normals =
     plane_normals(sliding, sliding.gather(mesh.reference_positions()), mesh.degree());
   std::map<unsigned int, unsigned int> slides, holds;

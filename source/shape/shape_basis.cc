@@ -38,19 +38,18 @@ std::unique_ptr<Shape<dim>> on_face(const mesh::BodyMesh<dim> &mesh,
                                     const ShapeParameters     &parameters,
                                     const Make                &make)
 {
-  auto face = std::make_unique<ShapedFace<dim>>(mesh, bodies, parameters);
-  // Modes and interior refer to the face, whose address stays the same when the pointer is moved.
-  auto modes    = make(*face);
-  auto resolved = parameters;
+  const ShapedFace<dim> face(mesh, bodies, parameters);
+  auto                  modes    = make(face);
+  auto                  resolved = parameters;
   if (resolved.interior == InteriorKind::automatic)
-    resolved.interior = face->boundaries().size() == 1 &&
-                            mesh.geometry(face->body()).is_box_side(face->boundaries().front())
+    resolved.interior = face.boundaries().size() == 1 &&
+                            mesh.geometry(face.body()).is_box_side(face.boundaries().front())
                           ? InteriorKind::linear_blending
                           : InteriorKind::elasticity;
   auto interior = resolved.interior == InteriorKind::linear_blending
-                    ? linear_blending(*face, resolved)
-                    : solved_interior(*face, resolved);
-  return std::make_unique<Shape<dim>>(std::move(face), std::move(modes), std::move(interior));
+                    ? linear_blending(face, resolved)
+                    : solved_interior(face, resolved);
+  return std::make_unique<Shape<dim>>(face, std::move(modes), std::move(interior));
 }
 
 /// Make a shape of formula modes. Modes of whole bodies move the interior themselves, whereas
@@ -146,15 +145,25 @@ Shape<dim>::Shape(const mesh::BodyMesh<dim> &mesh, Modes<dim> modes)
 {}
 
 template <int dim>
-Shape<dim>::Shape(std::unique_ptr<ShapedFace<dim>> face,
-                  Modes<dim>                       modes,
-                  std::unique_ptr<Interior<dim>>   interior)
-  : ShapeBasis<dim>(face->mesh().communicator())
-  , mesh(face->mesh())
-  , face(std::move(face))
-  , modes(std::move(modes))
+Shape<dim>::Shape(const ShapedFace<dim>         &face,
+                  Modes<dim>                     modes_of_face,
+                  std::unique_ptr<Interior<dim>> interior)
+  : ShapeBasis<dim>(face.mesh().communicator())
+  , mesh(face.mesh())
+  , modes(std::move(modes_of_face))
   , interior(std::move(interior))
-{}
+{
+  for (const unsigned int boundary : face.boundaries())
+    boundaries.emplace_back(face.body(), boundary);
+  std::sort(boundaries.begin(), boundaries.end());
+  const auto &surface = face.surface();
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    if (face.is_hanging(node))
+      hanging.push_back({node, surface.masters(node)});
+  if (modes.n_nodes > surface.n_nodes())
+    for (const auto &sample : surface.samples())
+      samples.push_back(sample.second);
+}
 
 /// Modes that are defined anywhere on the face give the moves of nodes and samples. Other modes
 /// give the moves of nodes only, and the moves of samples are interpolated from nodes. Modes may
@@ -165,20 +174,25 @@ template <int dim>
 typename Shape<dim>::Field Shape<dim>::apply(const std::vector<double> &alpha) const
 {
   Field moves = modes.apply(alpha);
-  if (!face)
+  if (!interior)
     {
       mesh.interpolate_hanging(moves);
       return moves;
     }
-  const Field on_face = moves;
-  face->interpolate_hanging(moves);
+  const Field of_samples(moves.end() - samples.size(), moves.end());
+  // Masters are never hanging.
+  for (const auto &[node, masters] : hanging)
+    {
+      moves[node] = 0.;
+      for (const auto &[master, weight] : masters)
+        moves[node] += weight * moves[master];
+    }
   moves = interior->extend(moves);
   moves.resize(mesh.n_points());
   mesh.interpolate_hanging(moves);
   mesh.interpolate_samples(moves);
-  if (modes.n_nodes == face->surface().n_points())
-    for (const auto &sample : face->surface().samples())
-      moves[sample.second] = on_face[sample.first];
+  for (unsigned int k = 0; k < samples.size(); ++k)
+    moves[samples[k]] = of_samples[k];
   return moves;
 }
 
@@ -195,14 +209,8 @@ dealii::Tensor<1, dim> Shape<dim>::move_at_point(const unsigned int         i,
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>> Shape<dim>::faces() const
 {
-  if (face)
-    {
-      std::vector<std::pair<unsigned int, unsigned int>> result;
-      for (const unsigned int boundary : face->boundaries())
-        result.emplace_back(face->body(), boundary);
-      std::sort(result.begin(), result.end());
-      return result;
-    }
+  if (interior)
+    return boundaries;
   // The row of a node that no variable moves is empty.
   std::vector<bool> moves;
   for (unsigned int node = 0; node < modes.n_nodes; ++node)

@@ -220,18 +220,14 @@ void ShapedFace<dim>::keep_to_planes()
       }
 }
 
-/// This function works on surface nodes as BodyMesh::interpolate_hanging() works on local nodes.
-/// Masters of hanging nodes are surface nodes.
 template <int dim>
-void ShapedFace<dim>::interpolate_hanging(Field &field) const
+std::vector<unsigned int> ShapedFace<dim>::needed_points() const
 {
-  for (unsigned int node = 0; node < nodes.n_nodes(); ++node)
-    if (is_hanging(node))
-      {
-        field[node] = 0.;
-        for (const auto &master : nodes.masters(node))
-          field[node] += master.second * field[master.first];
-      }
+  std::vector<unsigned int> result(nodes.n_nodes());
+  std::iota(result.begin(), result.end(), 0u);
+  for (const auto &sample : nodes.samples())
+    result.push_back(sample.first);
+  return result;
 }
 
 /// One pass suffices, because masters are never hanging.

@@ -38,12 +38,12 @@ public:
   using FaceField = typename Interior<dim>::FaceField;
 
   SolvedInterior(const ShapedFace<dim> &face, const double reach, const InteriorKind kind)
-    : face(face), roles(face, reach)
+    : mesh(face.mesh()), roles(face, reach)
   {
     number_unknowns();
-    auto rows = assemble(kind);
+    auto rows = assemble(kind, face.body());
     send_to_owners(rows);
-    if (dealii::Utilities::MPI::sum<unsigned long>(own.size(), face.mesh().communicator()) == 0)
+    if (dealii::Utilities::MPI::sum<unsigned long>(own.size(), mesh.communicator()) == 0)
       return;
     build_matrix(rows);
     build_solver(kind);
@@ -71,7 +71,6 @@ private:
 
   void number_unknowns()
   {
-    const auto         &mesh = face.mesh();
     const unsigned int  rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
     std::vector<double> sums(mesh.n_local_nodes(), 0.);
     for (unsigned int node = 0; node < sums.size(); ++node)
@@ -92,15 +91,15 @@ private:
 
   /// Assemble the blocks of the cells of this rank. Return the rows of A_ff by local node, with
   /// numbers of unknowns as columns, and store A_fd in couplings.
-  std::vector<Row> assemble(const InteriorKind kind)
+  std::vector<Row> assemble(const InteriorKind kind, const unsigned int body)
   {
     const auto                identity = dealii::unit_symmetric_tensor<dim>();
-    const InteriorMatrix<dim> cell_matrix(face.mesh(), kind);
+    const InteriorMatrix<dim> cell_matrix(mesh, kind);
     std::vector<Row>          rows(numbers.size());
     couplings.resize(numbers.size());
-    for (const auto &cell : face.mesh().cells())
+    for (const auto &cell : mesh.cells())
       {
-        if (cell.body != face.body())
+        if (cell.body != body)
           continue;
         const auto         K = cell_matrix.of_cell(cell);
         const unsigned int m = K.nodes.size();
@@ -131,7 +130,6 @@ private:
   /// of ranks, because sums in the order of messages would not be reproducible.
   void send_to_owners(std::vector<Row> &rows) const
   {
-    const auto        &mesh = face.mesh();
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
     std::map<unsigned int, std::map<unsigned int, Row>> parcels;
     for (unsigned int node = 0; node < rows.size(); ++node)
@@ -154,7 +152,7 @@ private:
         own_columns.push_back(std::distance(row.lower_bound(first), row.lower_bound(first + n)));
         other_columns.push_back(row.size() - own_columns.back());
       }
-    check(MatCreate(face.mesh().communicator(), matrix.put()));
+    check(MatCreate(mesh.communicator(), matrix.put()));
     check(MatSetSizes(matrix, dim * n, dim * n, PETSC_DETERMINE, PETSC_DETERMINE));
     check(MatSetBlockSize(matrix, dim));
     check(MatSetType(matrix, MATAIJ));
@@ -177,7 +175,7 @@ private:
 
   void build_solver(const InteriorKind kind)
   {
-    check(KSPCreate(face.mesh().communicator(), solver.put()));
+    check(KSPCreate(mesh.communicator(), solver.put()));
     check(KSPSetOptionsPrefix(solver, "interior_"));
     check(KSPSetOperators(solver, matrix, matrix));
     check(KSPSetType(solver, KSPCG));
@@ -214,7 +212,7 @@ private:
         // a null pointer for no coordinates and all ranks must agree.
         std::vector<double> places(dim * std::max<std::size_t>(own.size(), 1));
         for (unsigned int i = 0; i < dim * own.size(); ++i)
-          places[i] = face.mesh().reference_positions()[own[i / dim]][i % dim];
+          places[i] = mesh.reference_positions()[own[i / dim]][i % dim];
         check(PCSetCoordinates(preconditioner, dim, own.size(), places.data()));
       }
   }
@@ -229,7 +227,7 @@ private:
     std::vector<double> sums(dim * force.size());
     for (unsigned int i = 0; i < sums.size(); ++i)
       sums[i] = force[i / dim][i % dim];
-    mesh::sum_at_shared_nodes(face.mesh(), dim, sums);
+    mesh::sum_at_shared_nodes(mesh, dim, sums);
     PetscScalar *values;
     check(VecGetArray(b, &values));
     for (unsigned int i = 0; i < dim * own.size(); ++i)
@@ -256,14 +254,14 @@ private:
     for (unsigned int i = 0; i < dim * own.size(); ++i)
       sums[dim * own[i / dim] + i % dim] = values[i];
     check(VecRestoreArray(x, &values));
-    mesh::sum_at_shared_nodes(face.mesh(), dim, sums);
+    mesh::sum_at_shared_nodes(mesh, dim, sums);
     for (unsigned int i = 0; i < sums.size(); ++i)
       result[i / dim][i % dim] = sums[i];
     return result;
   }
 
-  const ShapedFace<dim> &face;
-  NodeRoles<dim>         roles;
+  const mesh::BodyMesh<dim> &mesh;
+  NodeRoles<dim>             roles;
 
   std::vector<unsigned int> own;       ///< local nodes of the unknowns of this rank
   unsigned int              first = 0; ///< number of the first unknown of this rank

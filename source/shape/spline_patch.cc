@@ -86,17 +86,23 @@ Modes<dim> spline_patch(const ShapedFace<dim> &face,
   const SplineNet            net =
     spline_net(parameters, dim - 1, degree, axis_ends(face, coordinates, parameters));
   check_axis(coordinates, parameters);
-  const auto                       directions = face_directions(face, parameters);
-  std::vector<std::vector<double>> places; // fractions s, t of the points
-  for (unsigned int point = 0; point < face.positions().size(); ++point)
-    places.push_back(coordinates.fractions(point));
+  const auto                 directions = face_directions(face, parameters);
+  std::vector<double>        places; // fractions s, t of the points, one point after another
+  typename Modes<dim>::Field moving; // directions at the points
+  for (const unsigned int point : face.needed_points())
+    {
+      const auto fractions = coordinates.fractions(point);
+      places.insert(places.end(), fractions.begin(), fractions.end());
+      moving.push_back(directions[point]);
+    }
   Modes<dim> modes;
   modes.n_variables = net.n_points();
-  modes.n_nodes     = places.size();
-  modes.row         = [=](unsigned int node) {
+  modes.n_nodes     = moving.size();
+  modes.row         = [=](unsigned int point) {
     typename Modes<dim>::Row row;
-    for (const auto &value : net.values(places[node]))
-      row.emplace_back(value.first, value.second * directions[node]);
+    const auto               first = places.begin() + (dim - 1) * point;
+    for (const auto &value : net.values({first, first + dim - 1}))
+      row.emplace_back(value.first, value.second * moving[point]);
     return row;
   };
   // Symmetry compares control points, which are no nodes. All control points of a projection have

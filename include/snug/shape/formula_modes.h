@@ -33,8 +33,8 @@ private:
   std::vector<std::vector<geometry::VariableFormula>> formulas;
 };
 
-/// Return the modes u(x) = sum_i alpha_i v_i(x) with FormulaFields v_i, at the points of a
-/// face. @throws InputError naming the entry Modes or an entry of FaceCoordinates.
+/// Return the modes u(x) = sum_i alpha_i v_i(x) with FormulaFields v_i, at the needed points of a
+/// face. Collective. @throws InputError naming the entry Modes or an entry of FaceCoordinates.
 template <int dim>
 Modes<dim> formula_modes(const ShapedFace<dim> &face, const ShapeParameters &parameters);
 

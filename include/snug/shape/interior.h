@@ -20,8 +20,8 @@ public:
 
   virtual ~Interior() = default;
 
-  /// Return the displacements of the local nodes. @p moves is the same on all ranks.
-  /// Collective.
+  /// Return the displacements of the local nodes. @p moves begins with the displacements of the
+  /// face nodes, which are the same on all ranks. Collective.
   virtual Field extend(const FaceField &moves) const = 0;
 };
 
@@ -32,7 +32,7 @@ public:
  * box unless the entry Reach is given. The face point is found in logical coordinates, and its
  * displacement is interpolated with the shape functions of the elements. Linear blending needs
  * a body with the frame of a box, which check_shapes() of the scene requires. Collective.
- * @throws InputError. The face must outlive the interior, here and in solved_interior().
+ * @throws InputError. The mesh must outlive the interior, here and in solved_interior().
  */
 template <int dim>
 std::unique_ptr<Interior<dim>> linear_blending(const ShapedFace<dim> &face,

@@ -34,14 +34,14 @@ public:
 private:
   using Normals = std::vector<dealii::Tensor<1, dim>>;
 
-  void find_face_nodes();
+  void find_face_nodes(const ShapedFace<dim> &face);
   /// Return the boundaries of the body other than the face that touch the face (@p touching), or
   /// the boundaries that do not touch the face.
-  std::vector<std::pair<unsigned int, unsigned int>> other_boundaries(bool touching) const;
-  void                                               free_near_nodes(double reach);
-  void                                               constrain_boundary_nodes();
+  std::vector<std::pair<unsigned int, unsigned int>> other_boundaries(const ShapedFace<dim> &face,
+                                                                      bool touching) const;
+  void free_near_nodes(const ShapedFace<dim> &face, double reach);
+  void constrain_boundary_nodes(const ShapedFace<dim> &face);
 
-  const ShapedFace<dim>              &face;
   std::vector<unsigned int>           face_nodes;
   std::vector<dealii::Tensor<2, dim>> projectors;
 };

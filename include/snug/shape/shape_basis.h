@@ -35,9 +35,9 @@ struct ControlLimit
 };
 
 /**
- * A linear operator from design variables to the moves of points. The points are the nodes and
- * samples of a shaped face, equal on all ranks, or the local nodes and samples of the mesh. Modes
- * of a face may cover only the nodes of the face. The rows of hanging nodes have no effect.
+ * A linear operator from design variables to the moves of points. The points are those of
+ * ShapedFace::needed_points(), or the local nodes and samples of the mesh. Modes of a face may
+ * cover only the nodes of the face. The rows of hanging nodes have no effect.
  */
 template <int dim>
 struct Modes
@@ -126,10 +126,8 @@ public:
   /// Construct a shape from modes of the local points of the mesh. The mesh must outlive the shape.
   Shape(const mesh::BodyMesh<dim> &mesh, Modes<dim> modes);
 
-  /// Construct a shape from modes of a face.
-  Shape(std::unique_ptr<ShapedFace<dim>> face,
-        Modes<dim>                       modes,
-        std::unique_ptr<Interior<dim>>   interior);
+  /// Construct a shape from modes of a face. The mesh must outlive the shape.
+  Shape(const ShapedFace<dim> &face, Modes<dim> modes, std::unique_ptr<Interior<dim>> interior);
 
   unsigned int n_variables() const override { return modes.n_variables; }
   Field        apply(const std::vector<double> &alpha) const override;
@@ -146,10 +144,13 @@ public:
   std::vector<std::pair<unsigned int, unsigned int>> faces() const;
 
 private:
-  const mesh::BodyMesh<dim>       &mesh;
-  std::unique_ptr<ShapedFace<dim>> face; ///< null for modes of the whole mesh
-  Modes<dim>                       modes;
-  std::unique_ptr<Interior<dim>>   interior; ///< null without a face
+  const mesh::BodyMesh<dim>     &mesh;
+  Modes<dim>                     modes;
+  std::unique_ptr<Interior<dim>> interior; ///< null without a face
+  // Parts of the gathered face, which as a whole would take memory of every rank.
+  std::vector<std::pair<unsigned int, unsigned int>> boundaries; ///< (body, boundary)
+  std::vector<typename mesh::BodyMesh<dim>::Hanging> hanging;    ///< with surface nodes
+  std::vector<unsigned int> samples; ///< local numbers of the last points of the modes
 };
 
 /// Function that makes a shape from the entries of the shape. @throws InputError naming the

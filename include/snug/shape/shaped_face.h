@@ -44,13 +44,15 @@ public:
   const std::vector<bool> &border() const { return on_border; }
 
   bool is_hanging(unsigned int surface_node) const { return !nodes.masters(surface_node).empty(); }
-  /// Set the values at hanging nodes to the interpolation of their masters.
-  void interpolate_hanging(Field &field) const;
-  /// Apply the transpose of interpolate_hanging(): add the values at hanging nodes to their
-  /// masters, then set the values at hanging nodes to zero.
-  void distribute_hanging(Field &field) const;
+
+  /// Return the surface points whose moves this rank needs: all nodes of the face, then the samples
+  /// of this rank in the order of surface().samples().
+  std::vector<unsigned int> needed_points() const;
 
 private:
+  /// Add the values at hanging nodes to their masters, then set the values at hanging nodes to
+  /// zero.
+  void distribute_hanging(Field &field) const;
   void measure();
   void find_border();
   void keep_to_planes();

@@ -47,6 +47,19 @@ TEST(FormulaModes, OnAFaceAreCarriedInward)
       }
 }
 
+/// Ranks without samples must fail, too.
+TEST(FormulaModes, AreFiniteAtSamplesOfAllRanks)
+{
+  auto bodies                  = plain_cube<2>(4);
+  bodies[0].sampled_boundaries = {"top"};
+  bodies[0].is_designed        = true;
+  const mesh::BodyMesh<2> mesh(MPI_COMM_WORLD, bodies, 1);
+  auto                    parameters = formulas<2>();
+  parameters.face                    = "cube.top";
+  parameters.modes                   = {{"0", "sqrt(0.1-abs(sin(4*_pi*x)))"}}; // finite at nodes
+  EXPECT_THROW(shape::Shapes<2>(mesh, {{"cube"}}, {parameters}), InputError);
+}
+
 TEST(FormulaModes, RejectWhatIsNoField)
 {
   const auto with = [](const std::string &a, const std::string &b) {
