@@ -103,7 +103,7 @@ private:
   using SurfaceField = typename mesh::Surface<dim>::Field;
   using Normals      = std::vector<faces::NodalNormals<dim>>; ///< one per side
 
-  /// What holds nodes: a support, a support of one node, or the axis.
+  /// A support, a support of one node, or the axis, which hold nodes.
   struct Holder
   {
     std::string    name; ///< name of the support
