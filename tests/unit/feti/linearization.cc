@@ -150,10 +150,10 @@ TEST_P(Trusses, DualOperatorOfClusters)
 
 TEST_P(Trusses, DualOperatorOfClustersIsSymmetric)
 {
-  truss.clustered  = true;
-  const auto feti  = truss.make({});
-  const auto x     = truss.owned(random_rows(truss, 4));
-  const auto xFx   = qp::inner_products(x, feti->apply(x), MPI_COMM_WORLD);
+  truss.clustered = true;
+  const auto feti = truss.make({});
+  const auto x    = truss.owned(random_rows(truss, 4));
+  const auto xFx  = qp::inner_products(x, feti->apply(x), MPI_COMM_WORLD);
   for (unsigned int i = 0; i < 4; ++i)
     for (unsigned int j = 0; j <= i; ++j)
       EXPECT_NEAR(xFx(i, j), xFx(j, i), 1e-11 * xFx(0, 0));
