@@ -144,7 +144,6 @@ std::shared_ptr<const SubdomainJoints> joints_of_subdomain(const SubdomainSystem
   result->T = bordered_inverse(compliance, result->N, result->compliance);
   return result;
 }
-
 } // namespace
 
 ClusterInverse::ClusterInverse(const ClusterStructure             &the_structure,

@@ -19,40 +19,35 @@ ClusterStructure::ClusterStructure(const SubdomainTable &table, MPI_Comm communi
   if (!has_joints)
     return;
   subdomain_side.n_unknowns.assign(table.joints.size(), 0);
-  const SubdomainRanks rank_of(table.first, comm);
-  std::map<unsigned int, std::vector<unsigned int>>
-    own; // by home
-         // subdomain, number of joints, and the other subdomain and number of motions of each joint
+  const SubdomainRanks                              rank_of(table.first, comm);
+  std::map<unsigned int, std::vector<unsigned int>> own; // by home
+  // by home: subdomain, number of joints, and the other subdomain of each joint
   std::map<unsigned int, std::vector<unsigned int>> out;
   for (unsigned int s = 0; s < table.joints.size(); ++s)
     {
       if (table.joints[s].empty())
         continue;
-      for (const auto &joint : table.joints[s])
-        subdomain_side.n_unknowns[s] += joint.motions.n_columns();
+      const auto n_joints          = narrow<unsigned int>(table.joints[s].size());
+      subdomain_side.n_unknowns[s] = n_joints * table.n_modes;
       const unsigned int home = rank_of(table.first_of_cluster(table.cluster_of(table.first + s)));
       auto              &message = out[home];
       own[home].push_back(s);
-      message.insert(message.end(),
-                     {table.first + s, narrow<unsigned int>(table.joints[s].size())});
+      message.insert(message.end(), {table.first + s, n_joints});
       for (const auto &joint : table.joints[s])
-        message.insert(message.end(), {joint.other, joint.motions.n_columns()});
+        message.push_back(joint.other);
     }
   for (auto &[rank, numbers] : own)
     subdomain_side.neighbours.push_back({narrow<int>(rank), std::move(numbers)});
   // Messages are sorted by rank, so that the members are in the order of the subdomains.
-  std::vector<std::vector<Other>> others;
+  std::vector<std::vector<unsigned int>> others;
   for (const auto &[rank, message] : dealii::Utilities::MPI::some_to_some(comm, out))
     {
       member_side.neighbours.push_back({narrow<int>(rank), {}});
-      for (std::size_t i = 0; i < message.size();)
+      for (std::size_t i = 0; i < message.size(); i += 2 + message[i + 1])
         {
           member_side.neighbours.back().numbers.push_back(narrow<unsigned int>(of_home.size()));
           of_home.push_back({message[i], {}});
-          others.emplace_back();
-          const std::size_t end = i + 2 + 2 * std::size_t(message[i + 1]);
-          for (i += 2; i < end; i += 2)
-            others.back().push_back({message[i], message[i + 1]});
+          others.emplace_back(message.begin() + i + 2, message.begin() + i + 2 + message[i + 1]);
         }
     }
   number_unknowns(others, table);
@@ -61,8 +56,8 @@ ClusterStructure::ClusterStructure(const SubdomainTable &table, MPI_Comm communi
 }
 
 /// Number the unknowns of each cluster joint by joint. The joints are ordered by their subdomains.
-void ClusterStructure::number_unknowns(const std::vector<std::vector<Other>> &others,
-                                       const SubdomainTable                  &table)
+void ClusterStructure::number_unknowns(const std::vector<std::vector<unsigned int>> &others,
+                                       const SubdomainTable                         &table)
 {
   using Pair = std::pair<unsigned int, unsigned int>;
   std::map<unsigned int, Cluster> clusters;
@@ -70,28 +65,26 @@ void ClusterStructure::number_unknowns(const std::vector<std::vector<Other>> &ot
     clusters[table.cluster_of(of_home[i].subdomain)].members.push_back(i);
   for (auto &[number, cluster] : clusters)
     {
-      std::map<Pair, std::pair<unsigned int, unsigned int>>
-                 joints; // number of motions, first unknown
-      const auto pair = [](unsigned int a, unsigned int b) {
+      std::map<Pair, unsigned int> first_unknowns; // of the joints
+      const auto                   pair = [](unsigned int a, unsigned int b) {
         return Pair(std::min(a, b), std::max(a, b));
       };
       for (const unsigned int i : cluster.members)
-        for (const Other &other : others[i])
-          joints.emplace(pair(of_home[i].subdomain, other.subdomain),
-                         std::pair(other.n_motions, 0u));
+        for (const unsigned int other : others[i])
+          first_unknowns.emplace(pair(of_home[i].subdomain, other), 0);
       unsigned int n = 0;
-      for (auto &[key, joint] : joints)
+      for (auto &[joint, first] : first_unknowns)
         {
-          joint.second = n;
-          n += joint.first;
+          first = n;
+          n += table.n_modes;
         }
       std::vector<std::vector<PetscInt>> rows(n);
       for (const unsigned int i : cluster.members)
         {
           auto &unknowns = of_home[i].unknowns;
-          for (const Other &other : others[i])
-            for (unsigned int l = 0; l < other.n_motions; ++l)
-              unknowns.push_back(joints.at(pair(of_home[i].subdomain, other.subdomain)).second + l);
+          for (const unsigned int other : others[i])
+            for (unsigned int mode = 0; mode < table.n_modes; ++mode)
+              unknowns.push_back(first_unknowns.at(pair(of_home[i].subdomain, other)) + mode);
           for (const unsigned int a : unknowns)
             rows[a].insert(rows[a].end(), unknowns.begin(), unknowns.end());
         }

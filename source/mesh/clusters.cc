@@ -116,8 +116,9 @@ public:
       }
   }
 
-  unsigned int                                          n_slabs() const { return n; }
-  const std::vector<std::pair<unsigned int, unsigned>> &slabs() const { return slab_of; }
+  unsigned int n_slabs() const { return n; }
+  /// Return pairs {subdomain, slab}.
+  const std::vector<std::pair<unsigned int, unsigned int>> &slabs() const { return slab_of; }
 
 private:
   /// Half layers are rounded down, so that there are few clusters.
@@ -133,7 +134,7 @@ private:
     return sum / static_cast<double>(end - begin);
   }
 
-  /// Return the lengths of the range from @p axis on in edges of a box. Their product is the number
+  /// Return the lengths of the range along the axes in edges of a box. Their product is the number
   /// of boxes also where the boxes overlap or leave a part of the range empty.
   static std::array<double, dim> sections(Iterator begin, Iterator end)
   {
@@ -178,9 +179,9 @@ private:
     return best;
   }
 
-  const unsigned int                             edge;
-  unsigned int                                   n;
-  std::vector<std::pair<unsigned int, unsigned>> slab_of;
+  const unsigned int                                 edge;
+  unsigned int                                       n;
+  std::vector<std::pair<unsigned int, unsigned int>> slab_of;
 };
 
 /// Return the slab of every global subdomain.

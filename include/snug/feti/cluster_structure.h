@@ -9,8 +9,8 @@ namespace snug::feti {
 /**
  * This class describes the clusters of subdomains: which rank holds the equations of the joints of
  * a cluster, and their pattern. The equations of a cluster are on its home, the rank of its first
- * subdomain. The unknowns of a joint of two subdomains are
- * the moments of the displacements of the face that both share.
+ * subdomain. A joint of two subdomains has n_modes unknowns, the moments of the displacements of
+ * the face that both share.
  */
 class ClusterStructure
 {
@@ -63,12 +63,6 @@ private:
     std::vector<unsigned int> numbers;
   };
 
-  /// The other subdomain of a joint, and the number of unknowns of the joint.
-  struct Other
-  {
-    unsigned int subdomain, n_motions;
-  };
-
   /// The subdomains of this rank, or the members at this home.
   struct Side
   {
@@ -80,7 +74,8 @@ private:
                                 const std::vector<Numbers>                        &sent,
                                 const Side                                        &to,
                                 const std::function<unsigned int(unsigned int k)> &size) const;
-  void number_unknowns(const std::vector<std::vector<Other>> &others, const SubdomainTable &table);
+  void                 number_unknowns(const std::vector<std::vector<unsigned int>> &others,
+                                       const SubdomainTable                         &table);
 
   MPI_Comm             comm;
   bool                 has_joints = false;

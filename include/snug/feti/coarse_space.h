@@ -16,8 +16,8 @@ struct SubdomainTable
   {
     unsigned int              other; ///< global id of the other subdomain
     std::vector<unsigned int> dofs;  ///< common unknowns, ordered alike in both subdomains
-    /// orthonormal motions of the face, equal in both subdomains; the first n_modes of them
-    /// distinguish all rigid motions
+    /// n_modes orthonormal motions of the face, equal in both subdomains, which distinguish all
+    /// rigid motions
     qp::MultiVector motions;
   };
 
