@@ -102,15 +102,11 @@ qp::MultiVector Linearization::FetiFreeSet::precondition(const qp::MultiVector &
   if (feti.structure.parameters.preconditioner == Preconditioner::none)
     return z;
   feti.context().work.preconditioner_applications += r.n_columns();
-  // Only the owner of linearly dependent contact rows detects them.
-  if (!gram)
-    throw_collectively(feti.context().communicator(),
-                       [&]() { gram = std::make_unique<RowGram::Factor>(*feti.gram, free); });
   // M^-1 = W_M^-1 (B D^-1 S D^-1 B') W_M^-1. W_M is the identity for orthonormal rows and D = I.
   scale_slips(z);
-  gram->solve(z);
+  feti.gram->solve(free, z);
   feti.precondition(z);
-  gram->solve(z);
+  feti.gram->solve(free, z);
   scale_slips(z);
   return z;
 }

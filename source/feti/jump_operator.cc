@@ -14,7 +14,7 @@ namespace snug::feti {
 namespace {
 using Unknown = RowLayout::Unknown;
 
-/// Equality rows and unknowns of this rank, in groups such that no row couples two groups.
+/// Node rows and unknowns of this rank, in groups such that no row couples two groups.
 struct Groups
 {
   std::vector<Unknown>                   unknowns; ///< ascending
@@ -24,12 +24,12 @@ struct Groups
   std::size_t stride; ///< distance between the numbers of consecutive entries
 };
 
-Groups groups_of(const RowLayout &layout, const std::size_t stride, const qp::RowSet &rows)
+Groups groups_of(const RowLayout &layout, const std::size_t stride)
 {
   const auto                                  &start = layout.entry_start();
   std::map<Unknown, std::vector<unsigned int>> entries;
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (rows[row])
+    if (layout.node_rows()[row])
       for (unsigned int e = start[row]; e < start[row + 1]; ++e)
         entries[layout.entry_unknowns()[e]].push_back(e);
   Groups groups;
@@ -77,8 +77,7 @@ Groups groups_of(const RowLayout &layout, const std::size_t stride, const qp::Ro
 qp::MultiVector row_forces_of(const RowLayout           &layout,
                               const RowGram             &gram,
                               const Groups              &groups,
-                              const std::vector<double> &entries,
-                              const qp::RowSet          &rows)
+                              const std::vector<double> &entries)
 {
   std::size_t width = 0;
   for (const auto &members : groups.members)
@@ -88,7 +87,7 @@ qp::MultiVector row_forces_of(const RowLayout           &layout,
     for (unsigned int k = 0; k < members.size(); ++k)
       for (const unsigned int e : groups.entries[members[k]])
         X(groups.row_of_entry[e], k) = entries[e * groups.stride] * entries[e * groups.stride + 1];
-  RowGram::Factor(gram, rows).solve(X);
+  gram.solve_node_rows(X);
   return X;
 }
 
@@ -129,12 +128,11 @@ std::vector<JumpColumns> jump_operator(const RowLayout           &layout,
                                        const std::vector<double> &entries,
                                        const unsigned int         stride,
                                        const unsigned int         first,
-                                       const unsigned int         n_subdomains,
-                                       const qp::RowSet          &rows)
+                                       const unsigned int         n_subdomains)
 {
   const MPI_Comm                      comm   = layout.communicator();
-  const auto                          groups = groups_of(layout, stride, rows);
-  const auto                          X      = row_forces_of(layout, gram, groups, entries, rows);
+  const auto                          groups = groups_of(layout, stride);
+  const auto                          X      = row_forces_of(layout, gram, groups, entries);
   const SubdomainRanks                rank_of(first, comm);
   std::map<unsigned int, JumpColumns> out;
   for (const auto &members : groups.members)

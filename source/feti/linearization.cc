@@ -51,7 +51,7 @@ Linearization::Linearization(const DualStructure                &the_structure,
                                                             narrow<unsigned int>(systems.size()),
                                                             find_soft_modes(entries),
                                                             structure.parameters.coarse_ranks,
-                                                            rows_of_soft_modes());
+                                                            layout().node_rows());
   if (soft_modes->n_vectors == 0 || clustered())
     return;
   if (!vectors)
@@ -240,9 +240,9 @@ Linearization::recover(PrimalVectors b, qp::MultiVector &lambda, const qp::Multi
   return u;
 }
 
-/// Return the multipliers of the gluing rows whose forces on the unknowns are @p forces. Forces of
-/// joints are such forces, because joints are combinations of gluing rows: B' lambda = forces has
-/// the solution lambda = W^-1 B D^-1 forces with W = B D^-1 B'.
+/// Return the multipliers of the equality rows E whose forces on the unknowns are @p forces. Forces
+/// of joints are such forces, because joints are combinations of gluing rows: B_E' lambda = forces
+/// has the solution lambda = W_EE^-1 B_E D^-1 forces with W_EE = B_E D^-1 B_E'.
 qp::MultiVector Linearization::gluing_forces(const PrimalVectors &forces) const
 {
   const unsigned int k = forces.n_columns();
@@ -255,12 +255,8 @@ qp::MultiVector Linearization::gluing_forces(const PrimalVectors &forces) const
           entry.value *= systems[s].compliance(entry.dof);
       add_product(weighted, forces[s], local);
     }
-  auto                                   lambda = layout().to_owned(local);
-  std::unique_ptr<const RowGram::Factor> factor;
-  throw_collectively(context().communicator(), [&]() {
-    factor = std::make_unique<RowGram::Factor>(*gram, rows_of_soft_modes());
-  });
-  factor->solve(lambda);
+  auto lambda = layout().to_owned(local);
+  gram->solve_equalities(lambda);
   return lambda;
 }
 

@@ -1,5 +1,6 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/row_layout.h>
+#include <snug/qp/row_set.h>
 
 #include <algorithm>
 #include <numeric>
@@ -10,10 +11,10 @@ namespace {
 using petsc::check;
 
 /// Return a star forest whose leaves 0..n-1 are connected to the given global rows.
-petsc::StarForest star_forest(MPI_Comm                         comm,
-                              unsigned int                     n_owned,
-                              const std::vector<unsigned int> &first_row_of_rank,
-                              const std::vector<unsigned int> &rows)
+petsc::StarForest connect(MPI_Comm                         comm,
+                          unsigned int                     n_owned,
+                          const std::vector<unsigned int> &first_row_of_rank,
+                          const std::vector<unsigned int> &rows)
 {
   std::vector<PetscSFNode> remote(rows.size());
   for (unsigned int leaf = 0; leaf < rows.size(); ++leaf)
@@ -75,20 +76,63 @@ qp::MultiVector deinterleave(const std::vector<double> &rows, unsigned int n, un
 }
 } // namespace
 
+RowExchange::RowExchange(MPI_Comm                         communicator,
+                         const std::vector<unsigned int> &first_of_rank,
+                         const std::vector<unsigned int> &rows)
+  : n_local(narrow<unsigned int>(rows.size()))
+{
+  int rank;
+  MPI_Comm_rank(communicator, &rank);
+  n_owned     = first_of_rank[rank + 1] - first_of_rank[rank];
+  star_forest = connect(communicator, n_owned, first_of_rank, rows);
+}
+
+std::vector<unsigned int> RowExchange::first_of_ranks(MPI_Comm           communicator,
+                                                      const unsigned int n_owned)
+{
+  int n_ranks;
+  MPI_Comm_size(communicator, &n_ranks);
+  std::vector<unsigned int> first(n_ranks + 1, 0);
+  MPI_Allgather(&n_owned, 1, MPI_UNSIGNED, first.data() + 1, 1, MPI_UNSIGNED, communicator);
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
+
+qp::MultiVector RowExchange::to_local(const qp::MultiVector &owned) const
+{
+  const unsigned int  k    = owned.n_columns();
+  const auto          root = interleave(owned);
+  std::vector<double> leaf(std::size_t(n_local) * k);
+  const Tuple         type(MPI_DOUBLE, k);
+  check(PetscSFBcastBegin(star_forest, type, root.data(), leaf.data(), MPI_REPLACE));
+  check(PetscSFBcastEnd(star_forest, type, root.data(), leaf.data(), MPI_REPLACE));
+  return deinterleave(leaf, n_local, k);
+}
+
+qp::MultiVector RowExchange::to_owned(const qp::MultiVector &local) const
+{
+  // PETSc sums single numbers only, so the columns are sent one at a time.
+  qp::MultiVector owned(n_owned, local.n_columns());
+  for (unsigned int j = 0; j < local.n_columns(); ++j)
+    {
+      check(PetscSFReduceBegin(star_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
+      check(PetscSFReduceEnd(star_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
+    }
+  return owned;
+}
+
 RowLayout::RowLayout(MPI_Comm                               communicator,
                      const qp::RowSet                      &contact_rows,
                      const std::vector<std::vector<Entry>> &entries,
                      unsigned int                           first_subdomain,
-                     const qp::RowSet                      &tie_rows)
-  : comm(communicator), is_contact(contact_rows), is_tie(tie_rows)
+                     const qp::RowSet                      &ties)
+  : comm(communicator), is_contact(contact_rows), is_node_row(qp::complement(contact_rows))
 {
-  is_tie.resize(is_contact.size(), false);
-  int n_ranks;
-  MPI_Comm_size(comm, &n_ranks);
-  std::vector<unsigned int> first(n_ranks + 1, 0);
-  const unsigned int        n = narrow<unsigned int>(contact_rows.size());
-  MPI_Allgather(&n, 1, MPI_UNSIGNED, first.data() + 1, 1, MPI_UNSIGNED, comm);
-  std::partial_sum(first.begin(), first.end(), first.begin());
+  for (unsigned int row = 0; row < ties.size(); ++row)
+    if (ties[row])
+      is_node_row[row] = 0;
+  const unsigned int n = narrow<unsigned int>(contact_rows.size());
+  first                = RowExchange::first_of_ranks(comm, n);
   int rank;
   MPI_Comm_rank(comm, &rank);
   first_owned = first[rank];
@@ -104,9 +148,9 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
   local_rows = entry_rows;
   std::sort(local_rows.begin(), local_rows.end());
   local_rows.erase(std::unique(local_rows.begin(), local_rows.end()), local_rows.end());
-  row_forest   = star_forest(comm, n, first, local_rows);
-  entry_forest = star_forest(comm, n, first, entry_rows);
-  sort_local_rows(first);
+  exchange     = RowExchange(comm, first, local_rows);
+  entry_forest = connect(comm, n, first, entry_rows);
+  sort_local_rows();
 
   // Degree of a row: the number of entries that the row has on all ranks.
   const PetscInt *degree;
@@ -129,7 +173,7 @@ RowLayout::RowLayout(MPI_Comm                               communicator,
 }
 
 /// Number the local equality rows before the local contact rows.
-void RowLayout::sort_local_rows(const std::vector<unsigned int> &first_row_of_rank)
+void RowLayout::sort_local_rows()
 {
   qp::MultiVector owned(n_owned());
   for (unsigned int row = 0; row < n_owned(); ++row)
@@ -141,7 +185,7 @@ void RowLayout::sort_local_rows(const std::vector<unsigned int> &first_row_of_ra
   n_equalities = narrow<unsigned int>(equalities.size());
   local_rows   = equalities;
   local_rows.insert(local_rows.end(), contacts.begin(), contacts.end());
-  row_forest = star_forest(comm, n_owned(), first_row_of_rank, local_rows);
+  exchange = RowExchange(comm, first, local_rows);
 }
 
 /// For a row that this rank does not touch, the result is another row's position or n_local().
@@ -154,29 +198,6 @@ unsigned int RowLayout::local_row(unsigned int global_row) const
   return narrow<unsigned int>(found - local_rows.begin());
 }
 
-qp::MultiVector RowLayout::to_local(const qp::MultiVector &owned) const
-{
-  const unsigned int  k    = owned.n_columns();
-  const auto          root = interleave(owned);
-  std::vector<double> leaf(std::size_t(n_local()) * k);
-  const Tuple         type(MPI_DOUBLE, k);
-  check(PetscSFBcastBegin(row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
-  check(PetscSFBcastEnd(row_forest, type, root.data(), leaf.data(), MPI_REPLACE));
-  return deinterleave(leaf, n_local(), k);
-}
-
-qp::MultiVector RowLayout::to_owned(const qp::MultiVector &local) const
-{
-  // PETSc sums single numbers only, so the columns are sent one at a time.
-  qp::MultiVector owned(n_owned(), local.n_columns());
-  for (unsigned int j = 0; j < local.n_columns(); ++j)
-    {
-      check(PetscSFReduceBegin(row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
-      check(PetscSFReduceEnd(row_forest, MPI_DOUBLE, local.column(j), owned.column(j), MPI_SUM));
-    }
-  return owned;
-}
-
 /// to_local() sends owned rows to the ranks of their leaves, to_owned() local rows to the ranks of
 /// their roots.
 RowLayout::Sent RowLayout::sent() const
@@ -185,22 +206,22 @@ RowLayout::Sent RowLayout::sent() const
   MPI_Comm_rank(comm, &rank);
   Sent                  result;
   std::set<PetscMPIInt> neighbours;
-  const auto add = [&](const PetscInt n, const PetscMPIInt *ranks, const PetscInt *first) {
+  const auto add = [&](const PetscInt n, const PetscMPIInt *ranks, const PetscInt *begin) {
     for (PetscInt i = 0; i < n; ++i)
-      if (ranks[i] != rank && first[i] < first[i + 1])
+      if (ranks[i] != rank && begin[i] < begin[i + 1])
         {
           neighbours.insert(ranks[i]);
           result.messages += 1;
-          result.numbers += first[i + 1] - first[i];
+          result.numbers += begin[i + 1] - begin[i];
         }
   };
   PetscInt           n;
   const PetscMPIInt *ranks;
-  const PetscInt    *first, *unused, *unused_too;
-  check(PetscSFGetLeafRanks(row_forest, &n, &ranks, &first, &unused));
-  add(n, ranks, first);
-  check(PetscSFGetRootRanks(row_forest, &n, &ranks, &first, &unused, &unused_too));
-  add(n, ranks, first);
+  const PetscInt    *begin, *unused, *unused_too;
+  check(PetscSFGetLeafRanks(exchange.forest(), &n, &ranks, &begin, &unused));
+  add(n, ranks, begin);
+  check(PetscSFGetRootRanks(exchange.forest(), &n, &ranks, &begin, &unused, &unused_too));
+  add(n, ranks, begin);
   result.neighbours = narrow<unsigned int>(neighbours.size());
   return result;
 }

@@ -19,45 +19,6 @@ bool DualStructure::seeks_soft_modes(const std::vector<SubdomainSystem> &systems
   return dealii::Utilities::MPI::logical_or(slender, layout.communicator());
 }
 
-/// Return the equality rows without ties and springs. Ties would couple all unknowns of a boundary,
-/// and so would springs. With zeros on springs, products of the vectors of soft modes with F need
-/// no D.
-qp::RowSet Linearization::rows_of_soft_modes() const
-{
-  auto result = qp::complement(contact_rows());
-  for (unsigned int row = 0; row < result.size(); ++row)
-    if (layout().tie_rows()[row])
-      result[row] = 0;
-  for (unsigned int row = 0; row < D.size(); ++row)
-    if (D[row] > 0.)
-      result[row] = 0;
-  return result;
-}
-
-/// Return the columns of the jump operator without springs, whose rows would couple all unknowns of
-/// a boundary.
-std::vector<JumpColumns> Linearization::jumps(const std::vector<double> &entries) const
-{
-  const unsigned int first = table().first, width = 2 + table().n_modes;
-  const auto         n = narrow<unsigned int>(systems.size());
-  if (!qp::any(!D.empty(), context().communicator()))
-    return jump_operator(layout(), *gram, entries, width, first, n, rows_of_soft_modes());
-  auto                others = entries;
-  std::vector<double> separate(D.size(), 0.);
-  for (unsigned int row = 0; row < D.size(); ++row)
-    if (D[row] > 0.)
-      {
-        separate[row] = 1.;
-        for (unsigned int e = layout().entry_start()[row]; e < layout().entry_start()[row + 1]; ++e)
-          others[std::size_t(e) * width] = 0.;
-      }
-  std::unique_ptr<const RowGram> of_others;
-  throw_collectively(context().communicator(), [&]() {
-    of_others = std::make_unique<RowGram>(structure.gram, others, width, separate);
-  });
-  return jump_operator(layout(), *of_others, others, width, first, n, rows_of_soft_modes());
-}
-
 /// Return the row forces of the soft modes of the subdomains of this rank.
 std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> &entries) const
 {
@@ -65,7 +26,8 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   if (!structure.seeks_soft_modes(systems))
     return forces;
   const unsigned int first   = table().first;
-  const auto         columns = jumps(entries);
+  const auto         columns = jump_operator(layout(), *gram, entries, 2 + table().n_modes, first,
+                                             narrow<unsigned int>(systems.size()));
   const auto         neighbours =
     stiffness_of_neighbours(systems, columns, first, context().communicator());
   double largest = 0.;

@@ -42,12 +42,11 @@ Gluing<dim>::Gluing(const mesh::BodyMesh<dim>                 &mesh,
                     const supports::DirichletConstraints<dim> &held,
                     const RowCoefficients<dim>                &reference,
                     const std::vector<contact::Tangent>       &tangents,
-                    const std::vector<unsigned int>           &clusters,
                     const Model<dim>                          &model,
                     const unsigned int                         load_case)
   : held(held)
   , model(model)
-  , rows(mesh, tearing, surface, held, reference, tangents, clusters, model, load_case)
+  , rows(mesh, tearing, surface, held, reference, tangents, model, load_case)
   , n_tangents(narrow<unsigned int>(tangents.size()))
   , n_ties(narrow<unsigned int>(reference.ties.size()))
 {

@@ -1,4 +1,3 @@
-#include <snug/base/disjoint_sets.h>
 #include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/state/gluing_rows.h>
@@ -10,13 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace snug::state {
 template <int dim>
 struct GluingRows<dim>::Message
 {
-  unsigned int            subdomain, node, row;
+  unsigned int            subdomain, node;
+  unsigned int            owner, row; ///< rank, and number among its rows
   Source                  source = Source::constant;
   unsigned int            index = 0, item = 0;
   std::array<double, dim> factor{};
@@ -24,51 +23,38 @@ struct GluingRows<dim>::Message
   template <typename Archive>
   void serialize(Archive &archive, unsigned int)
   {
-    archive & subdomain & node & row & source & index & item & factor;
+    archive & subdomain & node & owner & row & source & index & item & factor;
   }
 };
 
-template <int dim>
-std::vector<unsigned int> contact_clusters(const unsigned int                       n_nodes,
-                                           const std::vector<RowCoefficients<dim>> &positions)
-{
-  DisjointSets clusters(n_nodes);
-  for (const auto &rows : positions)
-    for (unsigned int i = 0; i < rows.n_rows(); ++i)
-      for (const auto &c : rows.row(i).coefficients)
-        clusters.join(rows.row(i).coefficients.front().first, c.first);
-  std::vector<unsigned int> root(n_nodes);
-  for (unsigned int node = 0; node < n_nodes; ++node)
-    root[node] = clusters.find(node);
-  return root;
-}
-
 namespace {
-/// Return the rank that owns the rows of each node of contact surfaces and of springs that join
-/// several nodes, by global node. The first node of a cluster determines the rank. Nodes that a
-/// spring joins are in one cluster.
+/// Return the rank that owns the equality rows of each node that ties or springs couple with other
+/// nodes, by global node: the owner of the first of all coupled nodes. B D^-1 B' of the equality
+/// rows is then block diagonal over ranks.
 template <int dim>
-std::map<unsigned int, unsigned int> ranks_of_nodes(const mesh::BodyMesh<dim>         &mesh,
-                                                    const mesh::Surface<dim>          &surface,
-                                                    const std::vector<unsigned int>   &clusters,
-                                                    const std::vector<SpringRow<dim>> &springs)
+std::map<unsigned int, unsigned int> ranks_of_tied_nodes(const mesh::BodyMesh<dim>  &mesh,
+                                                         const mesh::Surface<dim>   &surface,
+                                                         const RowCoefficients<dim> &reference)
 {
   std::map<unsigned int, unsigned int> root;
-  for (unsigned int i = 0; i < surface.n_nodes(); ++i)
-    root[surface.global_node(i)] = surface.global_node(clusters[i]);
-  const auto find = [&](unsigned int node) {
+  const auto                           find = [&](unsigned int node) {
     while (root.at(node) != node)
-      node = root.at(node);
+      node = root.at(node) = root.at(root.at(node));
     return node;
   };
-  for (const auto &row : springs)
-    for (unsigned int k = 1; k < row.coefficients.size(); ++k)
-      {
-        for (const auto &[node, c] : row.coefficients)
-          root.emplace(node, node);
-        const unsigned int a = find(row.coefficients[0].first), b = find(row.coefficients[k].first);
-        root[std::max(a, b)] = std::min(a, b);
-      }
+  const auto join = [&](const unsigned int a, const unsigned int b) {
+    root.emplace(a, a);
+    root.emplace(b, b);
+    const unsigned int of_a = find(a), of_b = find(b);
+    root[std::max(of_a, of_b)] = std::min(of_a, of_b);
+  };
+  for (const auto *rows : {&reference.ties, &reference.followers})
+    for (const auto &row : *rows)
+      for (const auto &c : row.coefficients)
+        join(surface.global_node(row.coefficients.front().first), surface.global_node(c.first));
+  for (const auto &row : reference.springs)
+    for (const auto &c : row.coefficients)
+      join(row.coefficients.front().first, c.first);
   std::map<unsigned int, unsigned int> ranks;
   for (const auto &node : root)
     ranks[node.first] = mesh.owner_of_global(find(node.first));
@@ -83,7 +69,6 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
                             const supports::DirichletConstraints<dim> &held,
                             const RowCoefficients<dim>                &reference,
                             const std::vector<contact::Tangent>       &tangents,
-                            const std::vector<unsigned int>           &clusters,
                             const Model<dim>                          &model,
                             const unsigned int                         load_case)
   : mesh(mesh), surface(surface), held(held)
@@ -93,14 +78,13 @@ GluingRows<dim>::GluingRows(const mesh::BodyMesh<dim>                 &mesh,
   n_bounded = narrow<unsigned int>(reference.contact.size() + reference.tangents.size());
   collect_surface(tearing);
   scale_rows(reference, tangents, largest_modulus(model));
-  // The rank of the first node of a cluster owns all rows at the nodes of the cluster, so that
-  // B D^-1 B' is block diagonal over ranks.
-  const auto           ranks = ranks_of_nodes(mesh, surface, clusters, reference.springs);
-  const auto           nodes = collect_copies(tearing, ranks);
+  ranks_of_tied              = ranks_of_tied_nodes(mesh, surface, reference);
+  const auto           nodes = collect_copies(tearing);
   std::vector<Message> messages;
   number_node_rows(nodes, reference, messages);
+  n_rows_of_rank = all_gather(mesh.communicator(), narrow<unsigned int>(owned.size()));
   number_spring_rows(nodes, reference, messages);
-  number_contact_rows(nodes, reference, ranks, tearing.n_global - tearing.n_points, messages);
+  number_contact_rows(nodes, reference, tangents, tearing.n_global - tearing.n_points, messages);
   // Load cases hold different motions. Their rows come last, so that all other rows have the same
   // numbers in all load cases.
   number_held_motions(tearing, model, load_case, messages);
@@ -131,20 +115,22 @@ void GluingRows<dim>::collect_surface(const mesh::Tearing &tearing)
 }
 
 template <int dim>
-typename GluingRows<dim>::Copies
-GluingRows<dim>::collect_copies(const mesh::Tearing                        &tearing,
-                                const std::map<unsigned int, unsigned int> &special) const
+unsigned int GluingRows<dim>::rank_of(const unsigned int node) const
 {
-  // Nodes of contact surfaces go to the rank of their cluster, and all other nodes go to their
-  // owner.
-  // pairs (node, subdomain) for the rank that owns the rows of the node
+  const auto tied = ranks_of_tied.find(node);
+  return tied == ranks_of_tied.end() ? mesh.owner_of_global(node) : tied->second;
+}
+
+template <int dim>
+typename GluingRows<dim>::Copies GluingRows<dim>::collect_copies(const mesh::Tearing &tearing) const
+{
+  // pairs (node, subdomain) for the rank that owns the equality rows of the node
   std::map<unsigned int, std::vector<unsigned int>> out;
   for (unsigned int s = 0; s < tearing.subdomains.size(); ++s)
     for (const unsigned int local : tearing.subdomains[s].nodes)
       {
         const unsigned int node   = mesh.global_node(local);
-        const auto         found  = special.find(node);
-        auto              &buffer = out[found == special.end() ? mesh.owner(local) : found->second];
+        auto              &buffer = out[rank_of(node)];
         buffer.insert(buffer.end(), {node, tearing.first_id + s});
       }
   Copies nodes;
@@ -156,6 +142,15 @@ GluingRows<dim>::collect_copies(const mesh::Tearing                        &tear
   for (auto &node : nodes)
     std::sort(node.second.begin(), node.second.end());
   return nodes;
+}
+
+/// Return an entry of the owned row that is numbered next.
+template <int dim>
+typename GluingRows<dim>::Message GluingRows<dim>::entry_of_owned_row(const unsigned int subdomain,
+                                                                      const unsigned int node) const
+{
+  return {subdomain, node, dealii::Utilities::MPI::this_mpi_process(mesh.communicator()),
+          narrow<unsigned int>(owned.size())};
 }
 
 template <int dim>
@@ -176,7 +171,7 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
             const double norm = std::sqrt(i * (i + 1.));
             for (unsigned int j = 0; j <= i; ++j)
               {
-                messages.push_back({subdomains[j], node, narrow<unsigned int>(owned.size())});
+                messages.push_back(entry_of_owned_row(subdomains[j], node));
                 messages.back().factor[c] = (j < i ? 1. : -1. * i) / norm;
               }
             // Copies are equal, so the right-hand side is 0.
@@ -192,7 +187,7 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
         {
           for (const unsigned int subdomain : subdomains)
             {
-              messages.push_back({subdomain, node, narrow<unsigned int>(owned.size())});
+              messages.push_back(entry_of_owned_row(subdomain, node));
               Message &message = messages.back();
               // A direction that follows the design has entries for all components, also where it
               // is zero at the reference geometry, because another design may rotate it.
@@ -208,89 +203,102 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
     }
 }
 
+/// Return the place of the next coupled row. All ranks number these rows alike, because the owner
+/// of a node sends the entries at its copies, whichever rank owns the row.
 template <int dim>
-void GluingRows<dim>::number_contact_rows(const Copies                               &nodes,
-                                          const RowCoefficients<dim>                 &reference,
-                                          const std::map<unsigned int, unsigned int> &rank_of_node,
-                                          const unsigned int                          first_point,
-                                          std::vector<Message>                       &messages)
+typename GluingRows<dim>::Message GluingRows<dim>::next_row(const unsigned int owner, OwnedRow row)
 {
-  auto               on_point = reference.points.begin(); // entries of row i
-  const unsigned int my_rank  = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
+  Message message{0, 0, owner, n_rows_of_rank[owner]++};
+  message.source = row.source;
+  message.index  = row.index;
+  if (owner == dealii::Utilities::MPI::this_mpi_process(mesh.communicator()))
+    owned.push_back(row);
+  return message;
+}
+
+/// Add the entries of coefficient @p item of a row at the copies of a node of this rank.
+template <int dim>
+void GluingRows<dim>::add_copies(const Copies         &nodes,
+                                 const unsigned int    node,
+                                 const unsigned int    item,
+                                 const double          scale,
+                                 Message               message,
+                                 std::vector<Message> &messages) const
+{
+  const auto found = nodes.find(node);
+  if (found == nodes.end())
+    return;
+  message.node = node;
+  message.item = item;
+  // The factor is 1 / (nr m). It is multiplied by the coefficient when B is filled.
+  message.factor.fill(1. / (scale * static_cast<double>(found->second.size())));
+  for (const unsigned int subdomain : found->second)
+    {
+      message.subdomain = subdomain;
+      messages.push_back(message);
+    }
+}
+
+template <int dim>
+void GluingRows<dim>::number_contact_rows(const Copies                        &nodes,
+                                          const RowCoefficients<dim>          &reference,
+                                          const std::vector<contact::Tangent> &tangents,
+                                          const unsigned int                   first_point,
+                                          std::vector<Message>                &messages)
+{
+  auto               on_point  = reference.points.begin(); // entries of row i
+  const unsigned int n_contact = narrow<unsigned int>(reference.contact.size());
   for (unsigned int i = 0; i < reference.n_rows(); ++i)
     {
       const auto &coefficients = reference.row(i).coefficients;
       while (on_point != reference.points.end() && on_point->row < i)
         ++on_point;
-      // A vanished row would be a zero row of B, so StateProblem checks its gap instead. All nodes
-      // of a row are in one cluster, so the first node determines the owner.
-      if (scales[i] == 0. ||
-          rank_of_node.at(surface.global_node(coefficients.front().first)) != my_rank)
+      // A vanished row would be a zero row of B, so StateProblem checks its gap instead.
+      if (scales[i] == 0.)
         continue;
+      // The first node determines the owner. Friction cones need the rows of a contact on one rank.
+      const bool  is_tangent = i >= n_contact && i < n_bounded;
+      const auto &first = reference.row(is_tangent ? tangents[i - n_contact].row : i).coefficients;
+      const unsigned int owner   = rank_of(surface.global_node(first.front().first));
+      const auto         message = next_row(owner, {Source::contact, i, 0, 1. / scales[i]});
       for (unsigned int k = 0; k < coefficients.size(); ++k)
-        {
-          const unsigned int node       = surface.global_node(coefficients[k].first);
-          const auto        &subdomains = nodes.at(node);
-          for (const unsigned int subdomain : subdomains)
-            {
-              messages.push_back({subdomain, node, narrow<unsigned int>(owned.size())});
-              Message &message = messages.back();
-              message.source   = Source::contact;
-              message.index    = i;
-              message.item     = k;
-              for (unsigned int c = 0; c < dim; ++c)
-                // The factor is 1 / (nr m). It is multiplied by the coefficient when B is filled.
-                message.factor[c] = 1. / (scales[i] * subdomains.size());
-            }
-        }
+        add_copies(nodes, surface.global_node(coefficients[k].first), k, scales[i], message,
+                   messages);
+      if (owner != dealii::Utilities::MPI::this_mpi_process(mesh.communicator()))
+        continue;
       const unsigned int n_unknowns = mesh.idealization().n_rigid_motions();
       for (auto p = on_point; p != reference.points.end() && p->row == i; ++p)
         for (unsigned int k = 0; k < n_unknowns; ++k)
           {
             const auto index = narrow<unsigned int>(p - reference.points.begin());
-            messages.push_back({first_point + p->point, 0, narrow<unsigned int>(owned.size()),
-                                Source::point, index, k});
+            messages.push_back(
+              {first_point + p->point, 0, owner, message.row, Source::point, index, k});
             messages.back().factor[0] = 1. / scales[i];
           }
-      owned.push_back({Source::contact, i, 0, 1. / scales[i]});
     }
 }
 
-/// Number the rows of springs, which have an own unknown of the ground without copies. The rank
-/// with the copies of the nodes owns the row. A row is not projected off the held directions,
-/// because a spring need not be independent of the supports.
+/// Number the rows of springs, which have an own unknown of the ground without copies. A row is not
+/// projected off the held directions, because a spring need not be independent of the supports.
 template <int dim>
 void GluingRows<dim>::number_spring_rows(const Copies               &nodes,
                                          const RowCoefficients<dim> &reference,
                                          std::vector<Message>       &messages)
 {
-  for (unsigned int i = 0; i < reference.springs.size(); ++i)
+  std::vector<double> squares(reference.springs.size(), 0.);
+  for (unsigned int i = 0; i < squares.size(); ++i)
+    for (const auto &[node, c] : reference.springs[i].coefficients)
+      if (const auto found = nodes.find(node); found != nodes.end())
+        squares[i] += c.norm_square() / static_cast<double>(found->second.size());
+  dealii::Utilities::MPI::sum(squares, mesh.communicator(), squares);
+  for (unsigned int i = 0; i < squares.size(); ++i)
     {
       const auto &coefficients = reference.springs[i].coefficients;
-      double      square       = 0.;
-      for (const auto &[node, c] : coefficients)
-        if (const auto found = nodes.find(node); found != nodes.end())
-          square += c.norm_square() / static_cast<double>(found->second.size());
-      spring_scales.push_back(std::sqrt(square) * reference.springs[i].scale);
-      if (nodes.count(coefficients.front().first) == 0)
-        continue;
+      spring_scales.push_back(std::sqrt(squares[i]) * reference.springs[i].scale);
+      const auto message = next_row(rank_of(coefficients.front().first),
+                                    {Source::spring, i, 0, 1. / spring_scales[i]});
       for (unsigned int k = 0; k < coefficients.size(); ++k)
-        {
-          const auto &subdomains = nodes.at(coefficients[k].first);
-          for (const unsigned int subdomain : subdomains)
-            {
-              messages.push_back(
-                {subdomain, coefficients[k].first, narrow<unsigned int>(owned.size())});
-              Message &message = messages.back();
-              message.source   = Source::spring;
-              message.index    = i;
-              message.item     = k;
-              for (unsigned int c = 0; c < dim; ++c)
-                message.factor[c] =
-                  1. / (spring_scales[i] * static_cast<double>(subdomains.size()));
-            }
-        }
-      owned.push_back({Source::spring, i, 0, 1. / spring_scales[i]});
+        add_copies(nodes, coefficients[k].first, k, spring_scales[i], message, messages);
     }
 }
 
@@ -314,9 +322,10 @@ void GluingRows<dim>::number_held_motions(const mesh::Tearing  &tearing,
   for (unsigned int i = 0; i < held_motions.size(); ++i)
     {
       const auto [p, k] = held_motions[i];
-      messages.push_back({tearing.n_global - tearing.n_points + p, 0,
-                          narrow<unsigned int>(owned.size()), Source::constant, 0, k});
-      messages.back().factor[0] = 1.;
+      Message message   = entry_of_owned_row(tearing.n_global - tearing.n_points + p, 0);
+      message.item      = k;
+      message.factor[0] = 1.;
+      messages.push_back(message);
       owned.push_back({Source::point, i, 0, k < dim ? 1. : model.points[p].length});
     }
 }
@@ -325,18 +334,17 @@ template <int dim>
 void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
                                    const mesh::Tearing        &tearing)
 {
-  const MPI_Comm     comm    = mesh.communicator();
-  const unsigned int my_rank = dealii::Utilities::MPI::this_mpi_process(comm);
-  const auto         counts  = all_gather(comm, static_cast<unsigned int>(owned.size()));
+  const MPI_Comm comm = mesh.communicator();
   // Owned rows are numbered from 0. In the global numbers, the rows of lower ranks come first.
-  const unsigned int first_row = std::accumulate(counts.begin(), counts.begin() + my_rank, 0u);
-  n_global                     = std::accumulate(counts.begin(), counts.end(), 0u);
+  const auto first_row =
+    feti::RowExchange::first_of_ranks(comm, narrow<unsigned int>(owned.size()));
+  n_global = first_row.back();
 
   std::map<unsigned int, std::vector<Message>> out;
   const auto                                  &first = tearing.first_id_of_rank;
   for (Message message : messages)
     {
-      message.row += first_row;
+      message.row += first_row[message.owner];
       const unsigned int rank =
         // A rank without subdomains has the first id of the next rank, so the last of equal ids
         // counts.
@@ -375,7 +383,7 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
     {
       // lambda_i >= 0 for contact, while multipliers of gluing, ties and supports have any sign.
       bounded.push_back(row.source == Source::contact && row.index < n_bounded);
-      tied.push_back(row.source == Source::point ||
+      tied.push_back(row.source == Source::point || row.source == Source::spring ||
                      (row.source == Source::contact && row.index >= n_bounded));
     }
   layout = std::make_unique<feti::RowLayout>(comm, bounded, layout_entries, tearing.first_id, tied);
@@ -385,10 +393,6 @@ void GluingRows<dim>::send_entries(const std::vector<Message> &messages,
       entry.local_row = layout->local_row(entry.local_row);
 }
 
-template std::vector<unsigned int> contact_clusters(unsigned int,
-                                                    const std::vector<RowCoefficients<2>> &);
-template std::vector<unsigned int> contact_clusters(unsigned int,
-                                                    const std::vector<RowCoefficients<3>> &);
 template class GluingRows<2>;
 template class GluingRows<3>;
 } // namespace snug::state

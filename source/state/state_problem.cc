@@ -123,17 +123,15 @@ void StateProblem<dim>::glue(const Field &x)
   std::vector<RowCoefficients<dim>> rows;
   for (const auto &at : problems)
     rows.push_back(rows_of(*at, x));
-  const auto clusters = contact_clusters<dim>(surface.n_nodes(), rows);
-  const auto table    = subdomain_table(mesh, tearing, model);
+  const auto table = subdomain_table(mesh, tearing, model);
   for (auto &system : systems)
     system.boundary.clear();
   for (unsigned int i = 0; i < problems.size(); ++i)
     {
       auto &at = *problems[i];
       at.structure.reset(); // refers to the old gluing
-      at.gluing =
-        std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i],
-                                      at.contact->tangents(), clusters, model, at.first_case);
+      at.gluing           = std::make_unique<Gluing<dim>>(mesh, tearing, surface, *held, rows[i],
+                                                          at.contact->tangents(), model, at.first_case);
       at.structure        = std::make_unique<const feti::DualStructure>(at.gluing->layout(), table,
                                                                         model.feti, factor_cache);
       const auto &contact = *at.contact;

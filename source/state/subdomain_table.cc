@@ -59,7 +59,7 @@ feti::SubdomainTable subdomain_table(const mesh::BodyMesh<dim> &mesh,
     for (const auto &joint : tearing.clusters.joints[s])
       {
         mesh::Field<dim> x;
-        table.joints[s].push_back({joint.other, {}, {}});
+        table.joints[s].push_back({joint.other, {}, qp::MultiVector()});
         for (const unsigned int node : joint.nodes)
           {
             x.push_back(mesh.reference_positions()[tearing.subdomains[s].nodes[node]]);

@@ -39,11 +39,10 @@ private:
   /// Return the side of the multipliers. Without slips both sides have the same coarse problem.
   const Side &of_multipliers() const { return slides ? multipliers : equations; }
 
-  const Linearization                     &feti;
-  qp::FreeRows                             free;
-  bool                                     slides; ///< whether a contact of any rank slips
-  Side                                     equations, multipliers;
-  mutable std::unique_ptr<RowGram::Factor> gram;
+  const Linearization &feti;
+  qp::FreeRows         free;
+  bool                 slides; ///< whether a contact of any rank slips
+  Side                 equations, multipliers;
 };
 } // namespace snug::feti
 

@@ -59,15 +59,14 @@ using JumpColumns = std::vector<JumpColumn>;
 
 /// Return the columns of the jump operator for the @p n_subdomains subdomains of this rank. Their
 /// global ids begin at @p first. @p entries are B and 1/D as in RowGram, @p stride numbers apart.
-/// The owned rows in @p rows are the equality rows; @p gram couples them to no other equality rows.
+/// Of B only the node rows count. Coupled rows would connect all unknowns of a boundary.
 /// Collective.
 std::vector<JumpColumns> jump_operator(const RowLayout           &layout,
                                        const RowGram             &gram,
                                        const std::vector<double> &entries,
                                        unsigned int               stride,
                                        unsigned int               first,
-                                       unsigned int               n_subdomains,
-                                       const qp::RowSet          &rows);
+                                       unsigned int               n_subdomains);
 } // namespace snug::feti
 
 #endif

@@ -118,18 +118,16 @@ public:
 private:
   class FetiFreeSet;
 
-  bool                     clustered() const { return structure.clusters.any(); }
-  const qp::MultiVector   &rigid_modes(unsigned int s) const;
-  PrimalVectors            solve_subdomains(const PrimalVectors &b) const;
-  qp::MultiVector          gluing_forces(const PrimalVectors &forces) const;
-  void                     factorize();
-  std::vector<double>      gather_entries();
-  void                     weight_ground(const std::vector<double> &entries);
-  qp::RowSet               rows_of_soft_modes() const;
-  std::vector<JumpColumns> jumps(const std::vector<double> &entries) const;
-  std::vector<RowForces>   find_soft_modes(const std::vector<double> &entries) const;
-  void                     weight_rows();
-  void                     precondition(qp::MultiVector &x) const;
+  bool                   clustered() const { return structure.clusters.any(); }
+  const qp::MultiVector &rigid_modes(unsigned int s) const;
+  PrimalVectors          solve_subdomains(const PrimalVectors &b) const;
+  qp::MultiVector        gluing_forces(const PrimalVectors &forces) const;
+  void                   factorize();
+  std::vector<double>    gather_entries();
+  void                   weight_ground(const std::vector<double> &entries);
+  std::vector<RowForces> find_soft_modes(const std::vector<double> &entries) const;
+  void                   weight_rows();
+  void                   precondition(qp::MultiVector &x) const;
 
   const DualStructure                &structure;
   const std::vector<SubdomainSystem> &systems;

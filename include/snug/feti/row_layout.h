@@ -8,12 +8,45 @@
 #include <tuple>
 
 namespace snug::feti {
+/// This class exchanges values of rows between their owners and the ranks that use the rows.
+/// Global rows are numbered rank by rank.
+class RowExchange
+{
+public:
+  RowExchange() = default;
+
+  /// Prepare the exchange of the global @p rows, which this rank uses. @p first_of_rank holds the
+  /// first row of each rank and the number of rows. Collective.
+  RowExchange(MPI_Comm                         communicator,
+              const std::vector<unsigned int> &first_of_rank,
+              const std::vector<unsigned int> &rows);
+
+  /// Return the numbers of @p n_owned rows per rank as @p first_of_rank of the constructor.
+  /// Collective.
+  static std::vector<unsigned int> first_of_ranks(MPI_Comm communicator, unsigned int n_owned);
+
+  /// Return the values of the rows that this rank uses, taken from the owned values. Collective.
+  qp::MultiVector to_local(const qp::MultiVector &owned) const;
+  /// Return owned values as sums of the local values of all ranks. Collective.
+  qp::MultiVector to_owned(const qp::MultiVector &local) const;
+
+  PetscSF forest() const { return star_forest; }
+
+private:
+  unsigned int      n_owned = 0, n_local = 0;
+  petsc::StarForest star_forest;
+};
+
 /**
  * This class describes the distribution of the rows of B over ranks. Each row is owned by one rank.
  * The local rows of a rank are those with an entry in one of its subdomains: first the equality
  * rows, then the contact rows, each in the order of the global rows. Layouts with equal equality
- * rows thus number these rows equally. Rows that share an unknown (one copy of it in one subdomain)
- * must have one owner, so that @f$B D^{-1} B^T@f$ is block diagonal over ranks.
+ * rows thus number these rows equally.
+ *
+ * Node rows are the equality rows that glue the copies of one node or hold it. Ties are the other
+ * equality rows: those of tied pairs, reference points and springs. Equality rows that share an
+ * unknown (one copy of it in one subdomain) must have one owner. Contact rows may have any owner,
+ * except that the rows of the contacts of one node have one.
  */
 class RowLayout
 {
@@ -50,22 +83,22 @@ public:
    * @param[in] contact_rows flag of each owned row of contact, normal or tangential.
    * @param[in] entries of each subdomain of this rank.
    * @param[in] first_subdomain global id of the first subdomain of this rank.
-   * @param[in] tie_rows flag of each owned row of tied pairs and reference points; empty: there are
-   *   none.
+   * @param[in] ties flag of each owned row that is a tie; empty: there are none.
    */
   RowLayout(MPI_Comm                               communicator,
             const qp::RowSet                      &contact_rows,
             const std::vector<std::vector<Entry>> &entries,
             unsigned int                           first_subdomain,
-            const qp::RowSet                      &tie_rows = {});
+            const qp::RowSet                      &ties = {});
 
   MPI_Comm          communicator() const { return comm; }
   unsigned int      n_owned() const { return narrow<unsigned int>(is_contact.size()); }
   unsigned int      n_local() const { return narrow<unsigned int>(local_rows.size()); }
   const qp::RowSet &contact_rows() const { return is_contact; }
-  /// Return flags of the equality rows of tied pairs and reference points, which glue no copies of
-  /// a node and hold none.
-  const qp::RowSet &tie_rows() const { return is_tie; }
+  /// Return flags of the node rows.
+  const qp::RowSet &node_rows() const { return is_node_row; }
+  /// Return the first row of each rank, as a global row, and the number of rows.
+  const std::vector<unsigned int> &first_of_rank() const { return first; }
   /// Return the global row of an owned row.
   unsigned int global_row(unsigned int owned_row) const { return first_owned + owned_row; }
   unsigned int global_row_of_local(unsigned int local_row) const { return local_rows[local_row]; }
@@ -73,9 +106,9 @@ public:
   unsigned int local_row(unsigned int global_row) const;
 
   /// Return local values, taken from the owned values. Collective.
-  qp::MultiVector to_local(const qp::MultiVector &owned) const;
+  qp::MultiVector to_local(const qp::MultiVector &owned) const { return exchange.to_local(owned); }
   /// Return owned values as sums of the local values of all ranks. Collective.
-  qp::MultiVector to_owned(const qp::MultiVector &local) const;
+  qp::MultiVector to_owned(const qp::MultiVector &local) const { return exchange.to_owned(local); }
 
   /// Return what this rank sends for to_local() and to_owned() of one column, as for a product
   /// with F, to other ranks.
@@ -93,7 +126,7 @@ public:
   const std::vector<Unknown> &entry_unknowns() const { return unknowns; }
 
 private:
-  void sort_local_rows(const std::vector<unsigned int> &first_row_of_rank);
+  void sort_local_rows();
 
   /// Gather the values of the entries, rank by rank. The @p n_per_entry values of an entry are one
   /// item of the MPI type @p of_entry.
@@ -103,11 +136,13 @@ private:
                                  const std::vector<T> &values) const;
 
   MPI_Comm                  comm;
-  qp::RowSet                is_contact, is_tie;
+  qp::RowSet                is_contact, is_node_row;
+  std::vector<unsigned int> first;
   unsigned int              first_owned;  ///< first owned row, as a global row
   std::vector<unsigned int> local_rows;   ///< global rows: equality rows, then contact rows
   unsigned int              n_equalities; ///< number of local equality rows
-  petsc::StarForest         row_forest, entry_forest;
+  RowExchange               exchange;     ///< of the local rows
+  petsc::StarForest         entry_forest;
   std::vector<unsigned int> start;
   std::vector<unsigned int> order; ///< sorted order of the gathered entries
   std::vector<Unknown>      unknowns;

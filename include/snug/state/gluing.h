@@ -29,10 +29,9 @@ public:
   /**
    * Build the rows for the copies of all nodes, for @p held and for the contact rows that
    * @p reference contains at the reference geometry (equal on all ranks), with the places
-   * @p tangents of the tangential rows. The rank that owns a row
-   * follows from the @p clusters of all positions of the bodies (contact_clusters()), so that the
-   * rows of gluing and supports are the same in all positions. Motions of the reference points of
-   * @p model are held as in @p load_case. References must outlive this object. Collective.
+   * @p tangents of the tangential rows. The rows of gluing and supports are the same in all
+   * positions of the bodies. Motions of the reference points of @p model are held as in
+   * @p load_case. References must outlive this object. Collective.
    */
   Gluing(const mesh::BodyMesh<dim>                 &mesh,
          const mesh::Tearing                       &tearing,
@@ -40,7 +39,6 @@ public:
          const supports::DirichletConstraints<dim> &held,
          const RowCoefficients<dim>                &reference,
          const std::vector<contact::Tangent>       &tangents,
-         const std::vector<unsigned int>           &clusters,
          const Model<dim>                          &model,
          unsigned int                               load_case);
 

@@ -53,17 +53,9 @@ struct RowCoefficients
 };
 
 /**
- * Return the first surface node of the cluster of each of @p n_nodes nodes. Nodes that a contact
- * row of one of the @p positions couples are in one cluster.
- */
-template <int dim>
-std::vector<unsigned int> contact_clusters(unsigned int                             n_nodes,
-                                           const std::vector<RowCoefficients<dim>> &positions);
-
-/**
  * This class is the topology of Gluing: the owner of each row of B, and the copies of nodes that
- * the row joins. The copies of each node meet on one rank, which numbers the rows and sends their
- * entries to the subdomains.
+ * the row joins. The copies of each node meet on the rank that owns its equality rows, which
+ * sends the entries of all rows at these copies to the subdomains.
  */
 template <int dim>
 class GluingRows
@@ -109,7 +101,6 @@ public:
              const supports::DirichletConstraints<dim> &held,
              const RowCoefficients<dim>                &reference,
              const std::vector<contact::Tangent>       &tangents,
-             const std::vector<unsigned int>           &clusters,
              const Model<dim>                          &model,
              unsigned int                               load_case);
 
@@ -140,8 +131,8 @@ public:
   unsigned int              n_bounded = 0; ///< number of normal and tangential rows
 
 private:
-  /// Subdomains of the copies of a node, ascending, by global node. Only the owner of the rows of
-  /// the node knows them.
+  /// Subdomains of the copies of a node, ascending, by global node. Only rank_of() the node
+  /// knows them.
   using Copies = std::map<unsigned int, std::vector<unsigned int>>;
 
   /// An entry that the owner of a row sends to a subdomain.
@@ -154,28 +145,39 @@ private:
   void   drop_dependent_ties(const RowCoefficients<dim> &reference);
   bool   is_displaced(unsigned int i, const RowCoefficients<dim> &reference) const;
   double stiffness_at(unsigned int surface_node, double modulus) const;
-  Copies collect_copies(const mesh::Tearing                        &tearing,
-                        const std::map<unsigned int, unsigned int> &rank_of_node) const;
-  void   number_node_rows(const Copies               &nodes,
-                          const RowCoefficients<dim> &reference,
-                          std::vector<Message>       &messages);
-  void   number_contact_rows(const Copies                               &nodes,
-                             const RowCoefficients<dim>                 &reference,
-                             const std::map<unsigned int, unsigned int> &rank_of_node,
-                             unsigned int                                first_point,
-                             std::vector<Message>                       &messages);
-  void   number_spring_rows(const Copies               &nodes,
-                            const RowCoefficients<dim> &reference,
-                            std::vector<Message>       &messages);
-  void   number_held_motions(const mesh::Tearing  &tearing,
-                             const Model<dim>     &model,
-                             unsigned int          load_case,
-                             std::vector<Message> &messages);
-  void   send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
+  Copies collect_copies(const mesh::Tearing &tearing) const;
+  /// Return the rank that owns the equality rows of a global node.
+  unsigned int rank_of(unsigned int node) const;
+  Message      entry_of_owned_row(unsigned int subdomain, unsigned int node) const;
+  void         number_node_rows(const Copies               &nodes,
+                                const RowCoefficients<dim> &reference,
+                                std::vector<Message>       &messages);
+  Message      next_row(unsigned int owner, OwnedRow row);
+  void         add_copies(const Copies         &nodes,
+                          unsigned int          node,
+                          unsigned int          item,
+                          double                scale,
+                          Message               message,
+                          std::vector<Message> &messages) const;
+  void         number_contact_rows(const Copies                        &nodes,
+                                   const RowCoefficients<dim>          &reference,
+                                   const std::vector<contact::Tangent> &tangents,
+                                   unsigned int                         first_point,
+                                   std::vector<Message>                &messages);
+  void         number_spring_rows(const Copies               &nodes,
+                                  const RowCoefficients<dim> &reference,
+                                  std::vector<Message>       &messages);
+  void         number_held_motions(const mesh::Tearing  &tearing,
+                                   const Model<dim>     &model,
+                                   unsigned int          load_case,
+                                   std::vector<Message> &messages);
+  void         send_entries(const std::vector<Message> &messages, const mesh::Tearing &tearing);
 
   const mesh::BodyMesh<dim>                 &mesh;
   const mesh::Surface<dim>                  &surface;
   const supports::DirichletConstraints<dim> &held;
+  std::map<unsigned int, unsigned int>       ranks_of_tied;  ///< of nodes with ties, by global node
+  std::vector<unsigned int>                  n_rows_of_rank; ///< numbered so far
 };
 } // namespace snug::state
 

@@ -314,7 +314,10 @@ TEST_P(Trusses, PreconditionerIsTheFormula)
                 y(i, k) *= mask[i];
             const auto expected = times(W, y);
             const auto free_set = feti->free_set(truss.owned(mask));
-            expect_near(truss.gathered(free_set->precondition(truss.owned(x))), expected, 1e-10);
+            // Contact rows that share nodes are inverted within 5 % on both sides, see ContactGram.
+            const double tolerance = GetParam().second ? 0.1 : 1e-10;
+            expect_near(truss.gathered(free_set->precondition(truss.owned(x))), expected,
+                        tolerance);
           }
       }
 }

@@ -241,7 +241,7 @@ inline void TornTruss::add_clusters(feti::SubdomainTable &table) const
         for (const auto &[a, b] : joined_blocks())
           if ((a == s && b == other) || (b == s && a == other))
             {
-              table.joints.back().push_back({other, {}, {}});
+              table.joints.back().push_back({other, {}, qp::MultiVector()});
               // both sides order the nodes alike
               auto                            &joint = table.joints.back().back();
               std::vector<std::vector<double>> x;

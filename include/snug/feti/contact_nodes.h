@@ -1,0 +1,79 @@
+#ifndef snug_feti_contact_nodes_h
+#define snug_feti_contact_nodes_h
+
+#include <snug/feti/coarse_space.h>
+
+#include <map>
+#include <vector>
+
+namespace snug::feti {
+/// This struct lists the gathered entries of the equality rows of this rank, without the entries in
+/// the motions of rigid bodies, which would couple all rows of a body but have no weight in W.
+struct EqualityEntries
+{
+  EqualityEntries(const RowLayout &layout, const SubdomainTable &table);
+
+  std::vector<RowLayout::Unknown>            unknowns; ///< of the entries, in the order of rows
+  std::map<RowLayout::Unknown, unsigned int> place;    ///< in unknowns
+  std::vector<unsigned int>                  row;      ///< owned row of each gathered entry
+  /// place in unknowns of each gathered entry in of_row
+  std::vector<unsigned int>              unknown;
+  std::vector<std::vector<unsigned int>> of_row; ///< by owned row; empty for contact rows
+  std::vector<std::vector<unsigned int>> of_unknown;
+};
+
+/**
+ * This struct lists the nodes at which the contact rows meet. The entries of contact rows at the
+ * copies of a node are sent to the rank that owns the equality rows of these copies, or to the rank
+ * of the subdomain where an unknown has no equality row. The lists belong to a pairing.
+ */
+struct ContactNodes
+{
+  /// Find the nodes of the rows of @p layout. Collective.
+  ContactNodes(const RowLayout       &layout,
+               const SubdomainTable  &table,
+               const EqualityEntries &equalities);
+
+  /// An entry of a row in one of the unknowns of a node.
+  struct Entry
+  {
+    unsigned int row;     ///< owned equality row, or place among the contact rows of the nodes
+    unsigned int unknown; ///< of the node
+    unsigned int entry;   ///< gathered entry, or place among the received entries
+  };
+
+  /// Unknowns that node rows connect: the copies of a component of a node, or of all components.
+  struct Node
+  {
+    unsigned int       n_unknowns;
+    std::vector<Entry> of_node_rows, of_ties, of_contacts; ///< ascending by row
+  };
+
+  MPI_Comm          communicator;
+  qp::RowSet        rows_of_contact; ///< flag of each owned row
+  bool              any;             ///< whether a rank has contact rows
+  std::vector<Node> nodes;           ///< on this rank
+  RowExchange       rows;            ///< of the contact rows of the nodes
+  unsigned int      n_rows = 0;      ///< number of these rows
+  /// exchange of the entries of contact rows, from the owners of the rows to the nodes
+  RowExchange               entries;
+  std::vector<unsigned int> sent; ///< gathered entries of the owned contact rows
+
+private:
+  /// An entry of a contact row on the way to its node.
+  struct Met;
+
+  static std::vector<Met> meet(const RowLayout        &layout,
+                               const SubdomainTable   &table,
+                               const EqualityEntries  &equalities,
+                               const std::vector<Met> &mine);
+  void                    add_node(const RowLayout                 &layout,
+                                   const EqualityEntries           &equalities,
+                                   const std::vector<Met>          &met,
+                                   const std::vector<unsigned int> &global_rows,
+                                   const RowLayout::Unknown        &first,
+                                   std::vector<bool>               &visited);
+};
+} // namespace snug::feti
+
+#endif

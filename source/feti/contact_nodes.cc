@@ -1,0 +1,182 @@
+#include <snug/feti/contact_nodes.h>
+#include <snug/feti/subdomain_ranks.h>
+#include <snug/qp/row_set.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace snug::feti {
+using Unknown = RowLayout::Unknown;
+
+struct ContactNodes::Met
+{
+  Unknown      unknown;
+  unsigned int row;    ///< global row
+  unsigned int number; ///< of the entry among those of all ranks
+
+  bool operator<(const Met &other) const
+  {
+    return std::tie(unknown, row) < std::tie(other.unknown, other.row);
+  }
+};
+
+EqualityEntries::EqualityEntries(const RowLayout &layout, const SubdomainTable &table)
+  : unknown(layout.entry_unknowns().size()), of_row(layout.n_owned())
+{
+  for (unsigned int r = 0; r < layout.n_owned(); ++r)
+    for (unsigned int e = layout.entry_start()[r]; e < layout.entry_start()[r + 1]; ++e)
+      {
+        row.push_back(r);
+        const Unknown &of_entry = layout.entry_unknowns()[e];
+        if (layout.contact_rows()[r] || table.is_rigid(of_entry.subdomain))
+          continue;
+        const auto at = place.emplace(of_entry, narrow<unsigned int>(unknowns.size())).first;
+        if (at->second == unknowns.size())
+          {
+            unknowns.push_back(of_entry);
+            of_unknown.emplace_back();
+          }
+        unknown[e] = at->second;
+        of_row[r].push_back(e);
+        of_unknown[at->second].push_back(e);
+      }
+}
+
+/// Send the entries of contact rows to the ranks of their subdomains, and from there to the ranks
+/// that own equality rows of their unknowns. Return those that arrive, sorted. Collective.
+std::vector<ContactNodes::Met> ContactNodes::meet(const RowLayout        &layout,
+                                                  const SubdomainTable   &table,
+                                                  const EqualityEntries  &equalities,
+                                                  const std::vector<Met> &mine)
+{
+  using Numbers          = std::map<unsigned int, std::vector<unsigned int>>; // by rank
+  const MPI_Comm comm    = layout.communicator();
+  const auto     receive = [&](const Numbers &out) {
+    return dealii::Utilities::MPI::some_to_some(comm, out);
+  };
+  const auto append = [](const Met &met, std::vector<unsigned int> &numbers) {
+    numbers.insert(numbers.end(), {met.unknown.subdomain, met.unknown.dof, met.row, met.number});
+  };
+  const auto all_met = [](const Numbers &received) {
+    std::vector<Met> result;
+    for (const auto &message : received)
+      for (std::size_t i = 0; i < message.second.size(); i += 4)
+        result.push_back({{message.second[i], message.second[i + 1]},
+                          message.second[i + 2],
+                          message.second[i + 3]});
+    return result;
+  };
+  const SubdomainRanks rank_of(table.first, comm);
+  const unsigned int   me = dealii::Utilities::MPI::this_mpi_process(comm);
+  Numbers              owned, out, forwarded;
+  for (const Unknown &unknown : equalities.unknowns)
+    if (const unsigned int rank = rank_of(unknown.subdomain); rank != me)
+      owned[rank].insert(owned[rank].end(), {unknown.subdomain, unknown.dof});
+  std::map<Unknown, unsigned int> rank_of_node; // where another rank owns the equality rows
+  for (const auto &message : receive(owned))
+    for (std::size_t i = 0; i < message.second.size(); i += 2)
+      rank_of_node[{message.second[i], message.second[i + 1]}] = message.first;
+  for (const Met &met : mine)
+    append(met, out[rank_of(met.unknown.subdomain)]);
+  for (const Met &met : all_met(receive(out)))
+    {
+      const auto found = rank_of_node.find(met.unknown);
+      append(met, forwarded[found == rank_of_node.end() ? me : found->second]);
+    }
+  auto result = all_met(receive(forwarded));
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+ContactNodes::ContactNodes(const RowLayout       &layout,
+                           const SubdomainTable  &table,
+                           const EqualityEntries &equalities)
+  : communicator(layout.communicator()), rows_of_contact(layout.contact_rows())
+{
+  any = qp::any(std::count(rows_of_contact.begin(), rows_of_contact.end(), 1) > 0, communicator);
+  if (!any)
+    return;
+  std::vector<Met> mine;
+  for (unsigned int e = 0; e < equalities.row.size(); ++e)
+    if (const auto &unknown = layout.entry_unknowns()[e];
+        rows_of_contact[equalities.row[e]] && !table.is_rigid(unknown.subdomain))
+      {
+        mine.push_back({unknown, layout.global_row(equalities.row[e]), 0});
+        sent.push_back(e);
+      }
+  const auto first = RowExchange::first_of_ranks(communicator, narrow<unsigned int>(sent.size()));
+  const unsigned int me = dealii::Utilities::MPI::this_mpi_process(communicator);
+  for (unsigned int i = 0; i < mine.size(); ++i)
+    mine[i].number = first[me] + i;
+  const auto met = meet(layout, table, equalities, mine);
+
+  std::vector<unsigned int> numbers, global_rows;
+  for (const Met &entry : met)
+    {
+      numbers.push_back(entry.number);
+      global_rows.push_back(entry.row);
+    }
+  entries = RowExchange(communicator, first, numbers);
+  std::sort(global_rows.begin(), global_rows.end());
+  global_rows.erase(std::unique(global_rows.begin(), global_rows.end()), global_rows.end());
+  n_rows = narrow<unsigned int>(global_rows.size());
+  rows   = RowExchange(communicator, layout.first_of_rank(), global_rows);
+  std::vector<bool> visited(met.size(), false);
+  for (unsigned int i = 0; i < met.size(); ++i)
+    if (!visited[i])
+      add_node(layout, equalities, met, global_rows, met[i].unknown, visited);
+}
+
+/// Add the node of all unknowns that node rows connect with the unknown @p first.
+void ContactNodes::add_node(const RowLayout                 &layout,
+                            const EqualityEntries           &equalities,
+                            const std::vector<Met>          &met,
+                            const std::vector<unsigned int> &global_rows,
+                            const Unknown                   &first,
+                            std::vector<bool>               &visited)
+{
+  Node                            node{1, {}, {}, {}};
+  std::map<Unknown, unsigned int> unknowns{{first, 0}};
+  std::vector<Unknown>            front{first};
+  while (!front.empty())
+    {
+      const auto at = equalities.place.find(front.back());
+      front.pop_back();
+      if (at == equalities.place.end())
+        continue;
+      for (const unsigned int e : equalities.of_unknown[at->second])
+        {
+          const unsigned int row   = equalities.row[e];
+          const unsigned int place = unknowns.at(at->first);
+          if (!layout.node_rows()[row])
+            {
+              node.of_ties.push_back({row, place, e});
+              continue;
+            }
+          node.of_node_rows.push_back({row, place, e});
+          for (const unsigned int other : equalities.of_row[row])
+            if (const Unknown &unknown = layout.entry_unknowns()[other];
+                unknowns.emplace(unknown, node.n_unknowns).second)
+              {
+                ++node.n_unknowns;
+                front.push_back(unknown);
+              }
+        }
+    }
+  for (const auto &[unknown, place] : unknowns)
+    for (auto k = std::lower_bound(met.begin(), met.end(), Met{unknown, 0, 0});
+         k != met.end() && !(unknown < k->unknown); ++k)
+      {
+        const auto row           = std::lower_bound(global_rows.begin(), global_rows.end(), k->row);
+        visited[k - met.begin()] = true;
+        node.of_contacts.push_back({narrow<unsigned int>(row - global_rows.begin()), place,
+                                    narrow<unsigned int>(k - met.begin())});
+      }
+  for (auto *list : {&node.of_node_rows, &node.of_ties, &node.of_contacts})
+    std::stable_sort(list->begin(), list->end(),
+                     [](const Entry &a, const Entry &b) { return a.row < b.row; });
+  nodes.push_back(std::move(node));
+}
+} // namespace snug::feti
