@@ -1,3 +1,4 @@
+#include <snug/base/shared_work.h>
 #include <snug/contact/projection.h>
 
 #include <algorithm>
@@ -40,6 +41,41 @@ std::optional<dealii::Point<dim>> inside(dealii::Point<dim> xi)
       xi[a] = std::clamp(xi[a], 0., 1.);
     }
   return xi;
+}
+
+/// Return a projection as numbers for shared_work(); see projection_of().
+template <int dim>
+std::vector<double> numbers_of(const PointProjection<dim> &of)
+{
+  std::vector<double> numbers{double(of.face), double(of.is_normal), of.softening,
+                              double(of.masters.size())};
+  for (int a = 0; a < dim - 1; ++a)
+    numbers.push_back(of.xi[a]);
+  for (const Weights *weights : {&of.masters, &of.surface})
+    for (const auto &[point, weight] : *weights)
+      numbers.insert(numbers.end(), {double(point), weight});
+  return numbers;
+}
+
+template <int dim>
+PointProjection<dim> projection_of(const std::vector<double> &numbers)
+{
+  PointProjection<dim> result;
+  auto                 next = numbers.begin();
+  result.face               = static_cast<unsigned int>(*next++);
+  result.is_normal          = *next++ != 0.;
+  result.softening          = *next++;
+  const double n_masters    = *next++;
+  for (int a = 0; a < dim - 1; ++a)
+    result.xi[a] = *next++;
+  while (next != numbers.end())
+    {
+      Weights &weights =
+        double(result.masters.size()) < n_masters ? result.masters : result.surface;
+      const auto point = static_cast<unsigned int>(*next++);
+      weights.emplace_back(point, *next++);
+    }
+  return result;
 }
 } // namespace
 
@@ -144,18 +180,26 @@ std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &s
   std::vector<Projection<dim>> result;
   if (sides.master.empty())
     return result;
-  const Projector<dim> projector(surface, sides.master, shape, positions, normals.master);
-  std::vector<bool>    visited(surface.n_nodes(), false);
+  const Projector<dim>      projector(surface, sides.master, shape, positions, normals.master);
+  std::vector<bool>         visited(surface.n_nodes(), false);
+  std::vector<unsigned int> slaves;
   for (const unsigned int slave_face : sides.slave)
     for (const unsigned int slave : surface.faces()[slave_face].nodes)
-      {
-        // Faces share nodes, so each node is projected once. Hanging nodes are not projected.
-        if (visited[slave] || !surface.masters(slave).empty())
-          continue;
-        visited[slave] = true;
-        if (const auto found = projector.onto(positions[slave], normals.slave[slave]))
-          result.push_back({*found, slave});
-      }
+      // Faces share nodes, so each node is projected once. Hanging nodes are not projected.
+      if (!visited[slave] && surface.masters(slave).empty())
+        {
+          visited[slave] = true;
+          slaves.push_back(slave);
+        }
+  const auto numbers =
+    shared_work(surface.communicator(), std::vector<double>(slaves.size(), 1.),
+                [&](const unsigned int i) {
+                  const auto found = projector.onto(positions[slaves[i]], normals.slave[slaves[i]]);
+                  return found ? numbers_of(*found) : std::vector<double>();
+                });
+  for (unsigned int i = 0; i < slaves.size(); ++i)
+    if (!numbers[i].empty())
+      result.push_back({projection_of<dim>(numbers[i]), slaves[i]});
   return result;
 }
 

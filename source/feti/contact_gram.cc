@@ -1,10 +1,13 @@
+#include <snug/base/errors.h>
+#include <snug/base/narrow.h>
 #include <snug/feti/contact_gram.h>
+#include <snug/qp/row_set.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 
 namespace snug::feti {
 namespace {
@@ -14,42 +17,75 @@ namespace {
 const double least_eigenvalue = 1. / 30.;
 const double inverse_error    = 0.05;
 
+/// Difference of products of unit rows below which rows are equal.
+const double same_row = 1e-10;
+
 /// Part of the square of a row below which its rest is round-off, as on held components.
 const double round_off = 1e-24;
 
-/// Set v <- v minus its projections on the orthonormal vectors @p Q. Two sweeps because of
-/// round-off.
-void orthogonalise(const std::vector<std::vector<double>> &Q, std::vector<double> &v)
+/// Vectors of the unknowns of a node with the inner product of the weights 1/D. No square roots are
+/// taken, so that units that are powers of two change no digit of the results.
+class NodeVectors
 {
-  for (unsigned int sweep = 0; sweep < 2; ++sweep)
-    for (const auto &q : Q)
-      {
-        const double c = std::inner_product(q.begin(), q.end(), v.begin(), 0.);
-        for (unsigned int i = 0; i < v.size(); ++i)
-          v[i] -= c * q[i];
-      }
-}
-/// Call @p use with the row and the weighted vector B D^-1/2 of each row in a list of entries.
-/// @p value_of returns B and 1/D of an entry.
-template <typename ValueOf, typename Use>
-void for_each_row(const std::vector<ContactNodes::Entry> &list,
-                  const unsigned int                      n_unknowns,
-                  const ValueOf                          &value_of,
-                  const Use                              &use)
-{
-  for (auto entry = list.begin(); entry != list.end();)
-    {
-      const unsigned int  row = entry->row;
-      std::vector<double> v(n_unknowns, 0.);
-      for (; entry != list.end() && entry->row == row; ++entry)
-        {
-          const auto [B, by_D] = value_of(entry->entry);
-          v[entry->unknown] += B * std::sqrt(by_D);
-        }
-      use(row, v);
-    }
-}
+public:
+  using Vector = std::vector<double>;
 
+  explicit NodeVectors(const unsigned int n_unknowns) : weights(n_unknowns, 0.) {}
+
+  /// Call @p use with the row and the vector of B of each row in a list of entries. @p value_of
+  /// returns B and 1/D of an entry.
+  template <typename ValueOf, typename Use>
+  void for_each_row(const std::vector<ContactNodes::Entry> &list,
+                    const ValueOf                          &value_of,
+                    const Use                              &use)
+  {
+    for (auto entry = list.begin(); entry != list.end();)
+      {
+        const unsigned int row = entry->row;
+        Vector             v(weights.size(), 0.);
+        for (; entry != list.end() && entry->row == row; ++entry)
+          {
+            const auto [B, by_D] = value_of(entry->entry);
+            v[entry->unknown] += B;
+            weights[entry->unknown] = by_D;
+          }
+        use(row, std::move(v));
+      }
+  }
+
+  double product(const Vector &a, const Vector &b) const
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < a.size(); ++i)
+      sum += a[i] * b[i] * weights[i];
+    return sum;
+  }
+
+  /// Set v <- v minus its projections on the vectors of add(). Two sweeps because of round-off.
+  void orthogonalise(Vector &v) const
+  {
+    for (unsigned int sweep = 0; sweep < 2; ++sweep)
+      for (const auto &[q, square] : orthogonal)
+        {
+          const double c = product(q, v) / square;
+          for (unsigned int i = 0; i < v.size(); ++i)
+            v[i] -= c * q[i];
+        }
+  }
+
+  void add(Vector v)
+  {
+    const double before = product(v, v);
+    orthogonalise(v);
+    if (const double square = product(v, v); square > round_off * before)
+      orthogonal.emplace_back(std::move(v), square);
+  }
+
+  Vector weights;
+
+private:
+  std::vector<std::pair<Vector, double>> orthogonal; ///< with their squares
+};
 } // namespace
 
 ContactGram::ContactGram(const ContactNodes        &the_structure,
@@ -70,6 +106,7 @@ ContactGram::ContactGram(const ContactNodes        &the_structure,
   W_EC.shrink_to_fit();
   L.shrink_to_fit();
   scale();
+  find_equal_rows();
 }
 
 void ContactGram::add_node(const ContactNodes::Node  &node,
@@ -77,85 +114,114 @@ void ContactGram::add_node(const ContactNodes::Node  &node,
                            const unsigned int         stride,
                            const qp::MultiVector     &received)
 {
-  std::vector<std::pair<unsigned int, std::vector<double>>> equalities;
-  std::vector<std::vector<double>>                          Q;
-  const auto square = [](const std::vector<double> &v) {
-    return std::inner_product(v.begin(), v.end(), v.begin(), 0.);
-  };
-  const auto value_of = [&](const unsigned int e) {
+  NodeVectors                                               vectors(node.n_unknowns);
+  std::vector<std::pair<unsigned int, NodeVectors::Vector>> equalities, contacts;
+  const auto                                                value_of = [&](const unsigned int e) {
     const double *entry = &entries[std::size_t(e) * stride];
     return std::make_pair(entry[0], entry[1]);
   };
-  for_each_row(node.of_node_rows, node.n_unknowns, value_of,
-               [&](const unsigned int row, std::vector<double> v) {
-                 equalities.emplace_back(row, v);
-                 const double before = square(v);
-                 orthogonalise(Q, v);
-                 const double after = square(v);
-                 if (after <= round_off * before)
-                   return;
-                 for (double &value : v)
-                   value /= std::sqrt(after);
-                 Q.push_back(std::move(v));
-               });
-  for_each_row(node.of_ties, node.n_unknowns, value_of,
-               [&](const unsigned int row, const std::vector<double> &v) {
-                 equalities.emplace_back(row, v);
-               });
-  for_each_row(
-    node.of_contacts, node.n_unknowns,
+  const auto keep = [](auto &list) {
+    return [&list](const unsigned int row, NodeVectors::Vector v) {
+      list.emplace_back(row, std::move(v));
+    };
+  };
+  vectors.for_each_row(node.of_node_rows, value_of, keep(equalities));
+  vectors.for_each_row(
+    node.of_contacts,
     [&](const unsigned int i) { return std::make_pair(received(i, 0), received(i, 1)); },
-    [&](const unsigned int row, std::vector<double> v) {
+    keep(contacts));
+  for (const auto &equality : equalities)
+    vectors.add(equality.second);
+  // Ties are not eliminated.
+  vectors.for_each_row(node.of_ties, value_of, keep(equalities));
+  const auto first = narrow<unsigned int>(weights.size());
+  for (auto &[row, v] : contacts)
+    {
       for (const auto &[equality, w] : equalities)
-        if (const double value = std::inner_product(v.begin(), v.end(), w.begin(), 0.); value != 0.)
+        if (const double value = vectors.product(v, w); value != 0.)
           W_EC.push_back({row, equality, value});
-      const double before = square(v);
-      orthogonalise(Q, v);
+      const double before = vectors.product(v, v);
+      vectors.orthogonalise(v);
       for (unsigned int i = 0; i < v.size(); ++i)
-        if (v[i] * v[i] > round_off * before)
-          L.push_back({row, n_columns + i, v[i]});
-    });
-  n_columns += node.n_unknowns;
+        if (v[i] * v[i] * vectors.weights[i] > round_off * before)
+          L.push_back({row, first + i, v[i]});
+    }
+  weights.insert(weights.end(), vectors.weights.begin(), vectors.weights.end());
 }
 
-/// Compute the diagonal of S and bounds of the eigenvalues of S scaled to unit diagonal, by the
-/// circles of Gershgorin: |L| |L|' bounds the entries of L L'.
+/// Compute the diagonal of S and bounds of the eigenvalues of S divided by it, by the circles of
+/// Gershgorin: |L| D^-1 |L|' bounds the entries of S.
 void ContactGram::scale()
 {
   const unsigned int n = narrow<unsigned int>(structure.rows_of_contact.size());
   ground.resize(n, 0.);
-  qp::MultiVector squares(structure.n_rows);
+  qp::MultiVector     sums(structure.n_rows, 2); // diagonal, circles
+  std::vector<double> columns(weights.size(), 0.);
   for (const Value &entry : L)
-    squares(entry.row) += entry.value * entry.value;
-  const auto of_owned = structure.rows.to_owned(squares);
+    columns[entry.column] += std::abs(entry.value);
+  for (const Value &entry : L)
+    {
+      const double weighted = weights[entry.column] * std::abs(entry.value);
+      sums(entry.row, 0) += weighted * std::abs(entry.value);
+      sums(entry.row, 1) += weighted * columns[entry.column];
+    }
+  const auto owned = structure.rows.to_owned(sums);
   diagonal.assign(n, 0.);
-  qp::MultiVector v(n);
   for (unsigned int i = 0; i < n; ++i)
     if (structure.rows_of_contact[i])
       {
-        if (of_owned(i) + ground[i] == 0.)
+        if (owned(i, 0) + ground[i] == 0.)
           ground[i] = 1.;
-        diagonal[i] = of_owned(i) + ground[i];
-        v(i)        = 1. / std::sqrt(diagonal[i]);
+        diagonal[i] = owned(i, 0) + ground[i];
+        high        = std::max(high, (owned(i, 1) + ground[i]) / diagonal[i]);
       }
     else
       ground[i] = 0.;
-  const auto          local = structure.rows.to_local(v);
-  qp::MultiVector     sums(structure.n_rows);
-  std::vector<double> columns(n_columns, 0.);
-  for (const Value &entry : L)
-    columns[entry.column] += std::abs(entry.value) * local(entry.row);
-  for (const Value &entry : L)
-    sums(entry.row) += std::abs(entry.value) * columns[entry.column];
-  const auto radius = structure.rows.to_owned(sums);
-  for (unsigned int i = 0; i < n; ++i)
-    if (structure.rows_of_contact[i])
-      high = std::max(high, v(i) * (radius(i) + ground[i] * v(i)));
   high = dealii::Utilities::MPI::max(high, structure.communicator);
   low  = std::max(least_eigenvalue * high, 2. - high);
   if (high > (1. + 1e-12) * low)
     n_terms = narrow<unsigned int>(std::lround(
       std::ceil(std::acosh(1. / inverse_error) / std::acosh((high + low) / (high - low)))));
+}
+
+/// Compare two products of each unit row with random numbers, which are equal for equal rows only.
+/// Rows of several nodes that depend on each other are not found; they have several solutions for
+/// the multipliers, which the iterations tolerate.
+void ContactGram::find_equal_rows()
+{
+  std::uint64_t state =
+    qp::scramble(dealii::Utilities::MPI::this_mpi_process(structure.communicator));
+  const auto      n_columns = narrow<unsigned int>(weights.size());
+  qp::MultiVector omega(n_columns, 2), products(structure.n_rows, 2);
+  for (unsigned int k = 0; k < 2; ++k)
+    for (unsigned int i = 0; i < n_columns; ++i)
+      omega(i, k) = std::ldexp(static_cast<double>(qp::scramble(++state) >> 11), -53) - 0.5;
+  for (unsigned int k = 0; k < 2; ++k)
+    for (const Value &entry : L)
+      products(entry.row, k) +=
+        std::sqrt(weights[entry.column]) * entry.value * omega(entry.column, k);
+  const auto                         owned = structure.rows.to_owned(products);
+  std::vector<std::array<double, 3>> rows; // two products and the row
+  for (unsigned int i = 0; i < diagonal.size(); ++i)
+    if (structure.rows_of_contact[i] && ground[i] == 0.)
+      {
+        const double by = std::copysign(1. / std::sqrt(diagonal[i]), owned(i, 0));
+        rows.push_back({{by * owned(i, 0), by * owned(i, 1), static_cast<double>(i)}});
+      }
+  std::sort(rows.begin(), rows.end());
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    for (std::size_t b = a + 1; b < rows.size() && rows[b][0] - rows[a][0] < same_row; ++b)
+      if (std::abs(rows[b][1] - rows[a][1]) < same_row)
+        equal_rows.emplace_back(static_cast<unsigned int>(rows[a][2]),
+                                static_cast<unsigned int>(rows[b][2]));
+}
+
+void ContactGram::check(const qp::FreeRows &free) const
+{
+  for (const auto &[a, b] : equal_rows)
+    if (free.rows()[a] && free.rows()[b])
+      throw SolveError("are two contact rows the same? Two closed contacts of a node have the same "
+                       "coefficients; look for a pair or an obstacle that is given twice");
 }
 
 qp::MultiVector ContactGram::from_equalities(const qp::MultiVector &y) const
@@ -181,13 +247,14 @@ qp::MultiVector ContactGram::to_equalities(const qp::MultiVector &z) const
 qp::MultiVector ContactGram::multiply(const qp::MultiVector &x) const
 {
   const auto      local = structure.rows.to_local(x);
-  qp::MultiVector of_columns(n_columns, x.n_columns()), sums(structure.n_rows, x.n_columns());
+  qp::MultiVector sums(structure.n_rows, x.n_columns());
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     {
+      std::vector<double> of_columns(weights.size(), 0.);
       for (const Value &entry : L)
-        of_columns(entry.column, k) += entry.value * local(entry.row, k);
+        of_columns[entry.column] += entry.value * local(entry.row, k);
       for (const Value &entry : L)
-        sums(entry.row, k) += entry.value * of_columns(entry.column, k);
+        sums(entry.row, k) += entry.value * weights[entry.column] * of_columns[entry.column];
     }
   auto result = structure.rows.to_owned(sums);
   for (unsigned int k = 0; k < x.n_columns(); ++k)
@@ -211,29 +278,28 @@ void ContactGram::solve(const qp::FreeRows &free, qp::MultiVector &x) const
   const auto scaled = [&](qp::MultiVector v) {
     for (unsigned int k = 0; k < v.n_columns(); ++k)
       for (unsigned int i = 0; i < v.n_rows(); ++i)
-        v(i, k) *= of_scale[i] == 0. ? 0. : 1. / std::sqrt(of_scale[i]);
+        v(i, k) = of_scale[i] == 0. ? 0. : v(i, k) / of_scale[i];
     return v;
   };
   const double    mean = 0.5 * (high + low), half = 0.5 * (high - low);
-  qp::MultiVector rest = scaled(x), step(x.n_rows(), x.n_columns());
-  step.add(1. / mean, rest);
+  qp::MultiVector rest = x, step(x.n_rows(), x.n_columns());
+  step.add(1. / mean, scaled(rest));
   qp::MultiVector sum = step;
   // Saad, Iterative Methods for Sparse Linear Systems, Algorithm 12.1, without divisions by half.
   double rho = half / mean;
   for (unsigned int term = 1; term < n_terms; ++term)
     {
-      auto image = scaled(multiply(scaled(step)));
+      auto image = multiply(step);
       free.restrict(image);
       rest.add(-1., image);
-      const double    next = half / (2. * mean - rho * half);
       qp::MultiVector longer(x.n_rows(), x.n_columns());
-      longer.add(next * rho, step);
-      longer.add(2. / (2. * mean - rho * half), rest);
+      const double    by = 1. / (2. * mean - rho * half);
+      longer.add(half * by * rho, step);
+      longer.add(2. * by, scaled(rest));
       step = std::move(longer);
-      rho  = next;
+      rho  = half * by;
       sum.add(1., step);
     }
-  sum = scaled(std::move(sum));
   for (unsigned int k = 0; k < x.n_columns(); ++k)
     for (unsigned int i = 0; i < x.n_rows(); ++i)
       if (structure.rows_of_contact[i])

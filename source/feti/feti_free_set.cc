@@ -102,6 +102,10 @@ qp::MultiVector Linearization::FetiFreeSet::precondition(const qp::MultiVector &
   if (feti.structure.parameters.preconditioner == Preconditioner::none)
     return z;
   feti.context().work.preconditioner_applications += r.n_columns();
+  // Only the owner of equal contact rows detects them.
+  if (!is_checked)
+    throw_collectively(feti.context().communicator(), [&]() { feti.gram->check(free); });
+  is_checked = true;
   // M^-1 = W_M^-1 (B D^-1 S D^-1 B') W_M^-1. W_M is the identity for orthonormal rows and D = I.
   scale_slips(z);
   feti.gram->solve(free, z);

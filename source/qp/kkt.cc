@@ -115,7 +115,8 @@ std::vector<double> force_rounding(const DualProblem &problem,
                                    double             scale,
                                    double             tolerance)
 {
-  const double part    = std::clamp(1e-3 * tolerance, 1e-15, 1e-12);
+  // Forces that cancel leave round-off of some 1e-14 of the largest force.
+  const double part    = std::clamp(1e-3 * tolerance, 1e-13, 1e-12);
   double       largest = 0.;
   for (unsigned int i = 0; i < lambda.n_rows(); ++i)
     largest = std::max(largest, std::abs(lambda(i)));

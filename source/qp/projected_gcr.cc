@@ -163,10 +163,10 @@ KrylovResult ProjectedGcr::solve(MultiVector               &lambda,
       const double before = std::exchange(size, length_of(result.residual_norms));
       if (result.iterations > 0 && size > poor_reduction * before)
         recalled = MultiVector(problem.n_owned(), 0);
-      const unsigned int known = projected.n_columns();
+      const unsigned int n_before = projected.n_columns();
       if (!add_directions(columns.leading_part(r)))
         return result;
-      minimize(known, r, lambda, residual);
+      minimize(n_before, r, lambda, residual);
       ++result.iterations;
     }
 }

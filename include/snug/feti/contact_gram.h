@@ -7,9 +7,9 @@ namespace snug::feti {
 /**
  * The parts of @f$W = B D^{-1} B^T@f$ that belong to the contact rows C. With the node rows E, the
  * Schur complement @f$S = W_{CC} - W_{CE} W_{EE}^{-1} W_{EC}@f$ is a sum over nodes. It is kept as
- * @f$S = L L^T + \mathrm{diag}(g)@f$: the rows of L are the rows of @f$B_C D^{-1/2}@f$ minus their
- * projections on those of @f$B_E D^{-1/2}@f$. At tied nodes S is too large, because ties are not
- * eliminated.
+ * @f$S = L D^{-1} L^T + \mathrm{diag}(g)@f$: the rows of L are the rows of @f$B_C@f$ minus their
+ * projections on those of @f$B_E@f$ in the inner product of @f$D^{-1}@f$. At tied nodes S is too
+ * large, because ties are not eliminated.
  */
 class ContactGram
 {
@@ -28,10 +28,14 @@ public:
   /// Return W_EC z for the equality rows E, zero in contact rows. Collective.
   qp::MultiVector to_equalities(const qp::MultiVector &z) const;
 
+  /// Check that the free rows are different. Not collective.
+  /// @throws SolveError if two free rows of this rank are the same up to a factor.
+  void check(const qp::FreeRows &free) const;
+
   /**
    * Set x <- p(P S P) x in the contact rows, for x = P x with the projector P on the free
    * multipliers (qp::FreeRows::restrict()). p(S) is close to 1/S: of the eigenvalues of S, scaled
-   * to unit diagonal, those above a tenth of the largest are inverted within 5 %, and p is positive
+   * to unit diagonal, those above 1/30 of the largest are inverted within 5 %, and p is positive
    * below. Chebyshev iterations of fixed degree, so that p is linear. Collective.
    */
   void solve(const qp::FreeRows &free, qp::MultiVector &x) const;
@@ -50,16 +54,19 @@ private:
                            unsigned int               stride,
                            const qp::MultiVector     &received);
   void            scale();
+  void            find_equal_rows();
   qp::MultiVector multiply(const qp::MultiVector &x) const;
 
   const ContactNodes &structure;
   std::vector<Value>  W_EC, L;
-  unsigned int        n_columns = 0; ///< of L
+  std::vector<double> weights; ///< 1/D of the columns of L
   std::vector<double> ground;
   std::vector<double> diagonal; ///< of S; 0 in equality rows
   /// bounds of the eigenvalues of S scaled to unit diagonal, and number of terms of p
   double       high = 1., low = 1.;
   unsigned int n_terms = 1;
+  /// owned rows that are the same up to a factor
+  std::vector<std::pair<unsigned int, unsigned int>> equal_rows;
 };
 } // namespace snug::feti
 

@@ -43,6 +43,7 @@ private:
   qp::FreeRows         free;
   bool                 slides; ///< whether a contact of any rank slips
   Side                 equations, multipliers;
+  mutable bool         is_checked = false; ///< whether the free contact rows are different
 };
 } // namespace snug::feti
 

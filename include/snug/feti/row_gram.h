@@ -52,6 +52,9 @@ public:
   /// rows outside M. Across slips M has one row. Collective.
   void solve(const qp::FreeRows &free, qp::MultiVector &x) const;
 
+  /// Check that the free contact rows are different, see ContactGram::check(). Not collective.
+  void check(const qp::FreeRows &free) const { contact.check(free); }
+
   /// Set x <- W_EE^{-1} x in the equality rows E, and x <- 0 in the contact rows.
   void solve_equalities(qp::MultiVector &x) const;
 
