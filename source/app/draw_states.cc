@@ -1,4 +1,5 @@
 #include <snug/app/results.h>
+#include <snug/io/state_files.h>
 
 namespace snug::app {
 template <int dim>

@@ -80,7 +80,6 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
       pair.taken[node] || faces::free_part(own.normals()[node], held[node]).norm() < held_part;
   const auto           at_positions = normals.at(pair.positions);
   const Points<double> x(pair.positions), n(at_positions.normals());
-  const auto           parts = all_integrals(x, n);
   const auto boxes = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
     const auto          box = cover_box(faces[f], x, n);
     std::vector<double> ends(box.lower.begin(), box.lower.end());
@@ -88,17 +87,16 @@ void MortarRows<dim>::choose_multipliers(const PairGeometry<dim> &pair)
     return ends;
   });
   std::vector<mortar::FaceCover> covers;
-  for (unsigned int f = 0; f < faces.size(); ++f)
-    {
-      mortar::CoverBox<dim> box;
-      std::copy_n(boxes[f].begin(), dim - 1, box.lower.begin());
-      std::copy_n(boxes[f].begin() + dim - 1, dim - 1, box.upper.begin());
-      const auto cover = choose_functions(faces[f], parts[f], box, pair.positions);
-      // A face that is opposite only within the margin of the pairing is not covered and gets no
-      // multipliers.
-      if (sum(cover.covered) > 0.)
-        covers.push_back(cover);
-    }
+  for_each_integrals<double>(x, n, [&](const unsigned int f, const auto &part) {
+    mortar::CoverBox<dim> box;
+    std::copy_n(boxes[f].begin(), dim - 1, box.lower.begin());
+    std::copy_n(boxes[f].begin() + dim - 1, dim - 1, box.upper.begin());
+    const auto cover = choose_functions(faces[f], part, box, pair.positions);
+    // A face that is opposite only within the margin of the pairing is not covered and gets no
+    // multipliers.
+    if (sum(cover.covered) > 0.)
+      covers.push_back(cover);
+  });
   multipliers = mortar::choose_multiplier_nodes(surface, covers, is_held, shape, pair.positions);
 }
 

@@ -42,18 +42,20 @@ std::vector<double> MortarRows<dim>::costs() const
 
 template <int dim>
 template <typename Number>
-std::vector<mortar::FaceIntegrals<Number>>
-MortarRows<dim>::all_integrals(const Points<Number> &x, const Points<Number> &n) const
+void MortarRows<dim>::for_each_integrals(const Points<Number>       &x,
+                                         const Points<Number>       &n,
+                                         const UseIntegrals<Number> &use) const
 {
-  const auto numbers = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
+  auto numbers = shared_work(surface.communicator(), costs(), [&](const unsigned int f) {
     return mortar::to_numbers(integrals(faces[f], x, n));
   });
-  std::vector<mortar::FaceIntegrals<Number>> result;
   for (unsigned int f = 0; f < faces.size(); ++f)
-    result.push_back(mortar::from_numbers<dim, Number>(
-      narrow<unsigned int>(surface.faces()[faces[f].face].nodes.size()),
-      narrow<unsigned int>(faces[f].masters.size()), numbers[f].begin()));
-  return result;
+    {
+      use(f, mortar::from_numbers<dim, Number>(
+               narrow<unsigned int>(surface.faces()[faces[f].face].nodes.size()),
+               narrow<unsigned int>(faces[f].masters.size()), numbers[f].begin()));
+      std::vector<double>().swap(numbers[f]);
+    }
 }
 
 template <int dim>
@@ -117,10 +119,10 @@ MortarRows<dim>::row_sums(const Points<Number> &x, const Points<Number> &n) cons
   std::vector<RowSum<Number>> sums;
   for (const auto &nodes : row_nodes)
     sums.emplace_back(nodes.size());
-  const auto parts = all_integrals(x, n);
-  for (unsigned int f = 0; f < faces.size(); ++f)
-    for_each_part(FacePart<Number>{faces[f], parts[f], x}, sums,
+  for_each_integrals<Number>(x, n, [&](const unsigned int f, const auto &part) {
+    for_each_part(FacePart<Number>{faces[f], part, x}, sums,
                   [](const Number &number, Number &entry) { entry += number; });
+  });
   for (unsigned int i = 0; i < sums.size(); ++i)
     // The area must be positive, because the row is divided by it.
     if (!(faces::value_of(sums[i].area) > 0.))
@@ -361,9 +363,10 @@ void MortarRows<dim>::add_face_gradient(const SlaveFace                   &face,
 
 template class MortarRows<2>;
 template class MortarRows<3>;
-#define SNUG_INSTANTIATE(dim)                                                         \
-  template std::vector<mortar::FaceIntegrals<double>> MortarRows<dim>::all_integrals( \
-    const Points<double> &, const Points<double> &) const;
+#define SNUG_INSTANTIATE(dim)                                               \
+  template void MortarRows<dim>::for_each_integrals(const Points<double> &, \
+                                                    const Points<double> &, \
+                                                    const UseIntegrals<double> &) const;
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

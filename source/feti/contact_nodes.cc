@@ -5,6 +5,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <tuple>
 
 namespace snug::feti {
@@ -23,25 +25,42 @@ struct ContactNodes::Met
 };
 
 EqualityEntries::EqualityEntries(const RowLayout &layout, const SubdomainTable &table)
-  : unknown(layout.entry_unknowns().size()), of_row(layout.n_owned())
 {
+  const auto &start = layout.entry_start();
   for (unsigned int r = 0; r < layout.n_owned(); ++r)
-    for (unsigned int e = layout.entry_start()[r]; e < layout.entry_start()[r + 1]; ++e)
-      {
-        row.push_back(r);
-        const Unknown &of_entry = layout.entry_unknowns()[e];
-        if (layout.contact_rows()[r] || table.is_rigid(of_entry.subdomain))
-          continue;
-        const auto at = place.emplace(of_entry, narrow<unsigned int>(unknowns.size())).first;
-        if (at->second == unknowns.size())
-          {
-            unknowns.push_back(of_entry);
-            of_unknown.emplace_back();
-          }
-        unknown[e] = at->second;
-        of_row[r].push_back(e);
-        of_unknown[at->second].push_back(e);
-      }
+    {
+      for (unsigned int e = start[r]; e < start[r + 1]; ++e)
+        {
+          row.push_back(r);
+          const Unknown &of_entry = layout.entry_unknowns()[e];
+          if (layout.contact_rows()[r] || table.is_rigid(of_entry.subdomain))
+            continue;
+          of_row.numbers.push_back(e);
+          unknowns.push_back(of_entry);
+        }
+      of_row.start.push_back(narrow<unsigned int>(of_row.numbers.size()));
+    }
+  std::sort(unknowns.begin(), unknowns.end());
+  const auto same = [](const Unknown &a, const Unknown &b) { return !(a < b); };
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end(), same), unknowns.end());
+  unknowns.shrink_to_fit();
+  for (const Unknown &of_entry : layout.entry_unknowns())
+    unknown.push_back(place(of_entry));
+  of_unknown.start.assign(unknowns.size() + 1, 0);
+  for (const unsigned int e : of_row.numbers)
+    ++of_unknown.start[unknown[e] + 1];
+  std::partial_sum(of_unknown.start.begin(), of_unknown.start.end(), of_unknown.start.begin());
+  of_unknown.numbers.resize(of_row.numbers.size());
+  auto next = of_unknown.start;
+  for (const unsigned int e : of_row.numbers)
+    of_unknown.numbers[next[unknown[e]]++] = e;
+}
+
+unsigned int EqualityEntries::place(const Unknown &of_entry) const
+{
+  const auto found = std::lower_bound(unknowns.begin(), unknowns.end(), of_entry);
+  return narrow<unsigned int>(
+    (found == unknowns.end() || of_entry < *found ? unknowns.end() : found) - unknowns.begin());
 }
 
 /// Send the entries of contact rows to the ranks of their subdomains, and from there to the ranks
@@ -142,14 +161,14 @@ void ContactNodes::add_node(const RowLayout                 &layout,
   std::vector<Unknown>            front{first};
   while (!front.empty())
     {
-      const auto at = equalities.place.find(front.back());
+      const Unknown      here = front.back();
+      const unsigned int at = equalities.place(here), place = unknowns.at(here);
       front.pop_back();
-      if (at == equalities.place.end())
+      if (at == equalities.unknowns.size())
         continue;
-      for (const unsigned int e : equalities.of_unknown[at->second])
+      for (const unsigned int e : equalities.of_unknown[at])
         {
-          const unsigned int row   = equalities.row[e];
-          const unsigned int place = unknowns.at(at->first);
+          const unsigned int row = equalities.row[e];
           if (!layout.node_rows()[row])
             {
               node.of_ties.push_back({row, place, e});

@@ -16,8 +16,8 @@
 #include <tuple>
 
 namespace snug::io {
-/// Fields at the nodes of the surface, on all ranks. This struct is not in the unnamed namespace,
-/// because gcc warns of captures of such types in members of other classes.
+/// Fields at the nodes of the surface, positions also at the samples, which normals need. This
+/// struct is not in the unnamed namespace, because gcc warns of captures of such types elsewhere.
 template <int dim>
 struct SurfaceFields
 {
@@ -128,28 +128,32 @@ public:
     , candidate(candidates<dim>(sources))
     , empty(quantities<dim>(friction, sources.ties != nullptr), {})
   {
-    for (unsigned int p = 0; p < sources.pairs.size(); ++p)
+    // Rank 0 writes. The other ranks only need the names of the blocks.
+    const bool writes = dealii::Utilities::MPI::this_mpi_process(sources.mesh.communicator()) == 0;
+    for (unsigned int p = 0; writes && p < sources.pairs.size(); ++p)
       nodal.push_back(nodal_points<dim>(sources, p, state.contact));
-    for (unsigned int p = 0; sources.ties != nullptr && p < sources.ties->pairs().size(); ++p)
+    for (unsigned int p = 0; writes && sources.ties && p < sources.ties->pairs().size(); ++p)
       tied.push_back(nodal_points<dim>(ties_of<dim>(sources), p, state.tied));
     for (const auto &face : sources.surface.faces())
-      add(face);
+      {
+        auto &grid = grids.try_emplace({face.body, face.boundary}, Grid{empty, {}}).first->second;
+        if (writes)
+          add(face, grid);
+      }
   }
 
   std::string declarations() const { return empty.declarations(); }
 
-  /// Return the blocks with the names of bodies and boundaries, with their cells on rank 0 alone,
-  /// because all ranks have all faces.
+  /// Return the blocks with the names of bodies and boundaries, with their cells on rank 0 alone.
   std::vector<Block> blocks(const std::vector<std::string> &body_names,
                             const unsigned int              compression) const
   {
-    const bool writes = dealii::Utilities::MPI::this_mpi_process(sources.mesh.communicator()) == 0;
     std::vector<Block> result;
     for (const auto &[side, of_side] : grids)
       result.push_back({"boundaries",
                         body_names[side.first] + '.' +
                           sources.mesh.geometry(side.first).boundary_names()[side.second],
-                        writes ? of_side.grid.piece(compression) : std::string()});
+                        of_side.grid.is_empty() ? std::string() : of_side.grid.piece(compression)});
     return result;
   }
 
@@ -162,7 +166,7 @@ private:
     std::map<unsigned int, unsigned int> number; ///< of the point of a node
   };
 
-  void add(const Face &face)
+  void add(const Face &face, Grid &of_side)
   {
     const auto &pairs = sources.pairs;
     const auto  found = std::find_if(pairs.begin(), pairs.end(), [&](const auto &of) {
@@ -170,8 +174,7 @@ private:
     });
     // A face shows one pair, which is its first pair. All faces of a boundary have the same one.
     const unsigned int p = found - pairs.begin();
-    auto &[grid, number] =
-      grids.try_emplace({face.body, face.boundary}, Grid{empty, {}}).first->second;
+    auto &[grid, number] = of_side;
     std::vector<unsigned int> corners;
     for (const unsigned int node : face.nodes)
       {
@@ -350,11 +353,11 @@ std::string ContactOutput<dim>::write(const Sources                  &of,
                                       const double                    time,
                                       const state::ContactState<dim> &state)
 {
-  // The gather is collective, so it must not be called within throw_collectively().
   const auto              &placed = of.placed;
-  const SurfaceFields<dim> fields{placed.to_space(of.surface.gather(of.mesh.reference_positions())),
+  const SurfaceFields<dim> fields{placed.to_space(
+                                    of.surface.gather_nodes(of.mesh.reference_positions())),
                                   placed.to_space(of.surface.gather(state.positions)),
-                                  placed.turned(of.surface.gather(state.displacement))};
+                                  placed.turned(of.surface.gather_nodes(state.displacement))};
   const std::string        stem = "contact-" + padded(series.size(), 4);
   // Extend the series on all ranks, because the next stem depends on its size.
   series.emplace_back(time, stem + ".vtm");
@@ -374,25 +377,6 @@ std::string ContactOutput<dim>::write(const Sources                  &of,
     write_text_file(directory + "/contact.pvd", pvd(series));
   });
   return series.back().second;
-}
-
-void write_load_cases(MPI_Comm                        comm,
-                      const std::string              &directory,
-                      const std::vector<std::string> &fields,
-                      const std::vector<std::string> &faces)
-{
-  throw_collectively(comm, [&] {
-    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
-      return;
-    std::vector<std::pair<double, std::string>> of_fields, of_faces;
-    for (unsigned int c = 0; c < fields.size(); ++c)
-      {
-        of_fields.emplace_back(c, fields[c]);
-        of_faces.emplace_back(c, faces[c]);
-      }
-    write_text_file(directory + "/solution.pvd", pvd(of_fields));
-    write_text_file(directory + "/contact.pvd", pvd(of_faces));
-  });
 }
 
 template class ContactOutput<2>;

@@ -179,4 +179,23 @@ void write_state(MPI_Comm                  comm,
     write_text_file(directory + '/' + stem + ".vtm", vtm(blocks, files));
   });
 }
+
+void write_load_cases(MPI_Comm                        comm,
+                      const std::string              &directory,
+                      const std::vector<std::string> &fields,
+                      const std::vector<std::string> &faces)
+{
+  throw_collectively(comm, [&] {
+    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
+      return;
+    std::vector<std::pair<double, std::string>> of_fields, of_faces;
+    for (unsigned int c = 0; c < fields.size(); ++c)
+      {
+        of_fields.emplace_back(c, fields[c]);
+        of_faces.emplace_back(c, faces[c]);
+      }
+    write_text_file(directory + "/solution.pvd", pvd(of_fields));
+    write_text_file(directory + "/contact.pvd", pvd(of_faces));
+  });
+}
 } // namespace snug::io

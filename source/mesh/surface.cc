@@ -1,5 +1,6 @@
 #include <snug/base/assertions.h>
 #include <snug/base/gather.h>
+#include <snug/base/narrow.h>
 #include <snug/mesh/lagrange.h>
 #include <snug/mesh/surface.h>
 
@@ -106,33 +107,28 @@ Surface<dim>::Surface(const BodyMesh<dim>                                      &
 
   // The surface nodes include masters, which need not be nodes of the given faces.
   global_nodes = nodes_of(faces, hanging, n_leading<dim>);
-  std::map<unsigned int, unsigned int> index;
-  for (unsigned int node = 0; node < global_nodes.size(); ++node)
-    index[global_nodes[node]] = node;
-  add_faces(faces, index, samples);
+  add_faces(faces, samples);
   node_masters.resize(global_nodes.size());
   for (const auto &record : hanging)
     {
-      auto &masters = node_masters[index.at(record.first)];
+      auto &masters = node_masters[find(record.first)];
       // A node may occur twice if the weights of two ranks differ by round-off.
       masters.clear();
       for (const auto &master : record.second)
-        masters.emplace_back(index.at(master.first), master.second);
+        masters.emplace_back(find(master.first), master.second);
     }
-  find_owned(index);
+  find_owned();
   reference = gather(mesh.reference_positions());
 }
 
 /// Samples are numbered in the order of the faces, which is the same on all ranks.
 template <int dim>
-void Surface<dim>::add_faces(const std::vector<FaceRecord>              &records,
-                             const std::map<unsigned int, unsigned int> &index,
-                             const OwnSamples                           &samples)
+void Surface<dim>::add_faces(const std::vector<FaceRecord> &records, const OwnSamples &samples)
 {
   for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
     known_surfaces.push_back(mesh.geometry(body).known_surfaces());
   const unsigned int samples_per_face = dealii::Utilities::pow(surface_degree + 1, dim - 1);
-  unsigned int       point            = n_nodes();
+  points                              = n_nodes();
   for (const auto &record : records)
     {
       Face face{static_cast<unsigned int>(record[0]),
@@ -143,31 +139,27 @@ void Surface<dim>::add_faces(const std::vector<FaceRecord>              &records
       if (record[2 + dim] < static_cast<long long>(known_surfaces[face.body].size()))
         face.known = &known_surfaces[face.body][record[2 + dim]];
       for (unsigned int i = n_leading<dim>; i < record.size(); ++i)
-        face.nodes.push_back(index.at(record[i]));
+        face.nodes.push_back(find(static_cast<unsigned int>(record[i])));
       const auto mine = samples.find(record);
       for (unsigned int k = 0; k < record[3 + dim] * samples_per_face; ++k)
         {
-          face.samples.push_back(point++);
+          face.samples.push_back(points++);
           if (mine != samples.end())
             owned_samples.emplace_back(face.samples.back(), (*mine->second)[k]);
         }
       surface_faces.push_back(face);
     }
-  reference.resize(point);
 }
 
 /// Every surface node has one owner, so gather() receives each value once.
 template <int dim>
-void Surface<dim>::find_owned(const std::map<unsigned int, unsigned int> &index)
+void Surface<dim>::find_owned()
 {
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(mesh.communicator());
   for (unsigned int node = 0; node < mesh.n_local_nodes(); ++node)
     if (mesh.owner(node) == rank)
-      {
-        const auto found = index.find(mesh.global_node(node));
-        if (found != index.end())
-          owned.emplace_back(found->second, node);
-      }
+      if (const unsigned int found = find(mesh.global_node(node)); found < n_nodes())
+        owned.emplace_back(found, node);
   std::sort(owned.begin(), owned.end());
 }
 
@@ -180,20 +172,31 @@ typename Surface<dim>::Field Surface<dim>::gather(const mesh::Field<dim> &field)
   const bool with_samples =
     n_points() > n_nodes() &&
     dealii::Utilities::MPI::min(int(field.size() == mesh.n_points()), mesh.communicator()) == 1;
-  Field               result(with_samples ? n_points() : n_nodes());
-  std::vector<double> values(dim * result.size(), 0.);
-  const auto          add = [&](const std::vector<std::pair<unsigned int, unsigned int>> &points) {
-    for (const auto &point : points)
-      for (unsigned int d = 0; d < dim; ++d)
-        values[dim * point.first + d] = field[point.second][d];
+  return sum_of_owners(field, with_samples);
+}
+
+template <int dim>
+typename Surface<dim>::Field Surface<dim>::gather_nodes(const mesh::Field<dim> &field) const
+{
+  return sum_of_owners(field, false);
+}
+
+/// Each point has one owner, and the other ranks add zeros.
+template <int dim>
+typename Surface<dim>::Field Surface<dim>::sum_of_owners(const mesh::Field<dim> &field,
+                                                         const bool              with_samples) const
+{
+  Field      result(with_samples ? n_points() : n_nodes());
+  const auto set = [&](const std::vector<std::pair<unsigned int, unsigned int>> &of_owner) {
+    for (const auto &point : of_owner)
+      result[point.first] = field[point.second];
   };
-  add(owned);
+  set(owned);
   if (with_samples)
-    add(owned_samples);
-  // Each point is on one rank, and the other ranks add zeros.
-  dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
-  for (unsigned int i = 0; i < values.size(); ++i)
-    result[i / dim][i % dim] = values[i];
+    set(owned_samples);
+  static_assert(sizeof(result[0]) == dim * sizeof(double), "a field is sent as numbers");
+  MPI_Allreduce(MPI_IN_PLACE, result.data(), narrow<int>(dim * result.size()), MPI_DOUBLE, MPI_SUM,
+                mesh.communicator());
   return result;
 }
 

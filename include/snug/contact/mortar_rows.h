@@ -104,10 +104,15 @@ private:
   template <typename Number>
   mortar::FaceIntegrals<Number>
   integrals(const SlaveFace &face, const Points<Number> &x, const Points<Number> &n) const;
-  /// Compute the integrals of all slave faces at positions @p x and normals @p n. Collective.
   template <typename Number>
-  std::vector<mortar::FaceIntegrals<Number>> all_integrals(const Points<Number> &x,
-                                                           const Points<Number> &n) const;
+  using UseIntegrals = std::function<void(unsigned int, const mortar::FaceIntegrals<Number> &)>;
+  /// Compute the integrals of all slave faces at positions @p x and normals @p n. Call @p use with
+  /// the place of a slave face in faces and its integrals, one face after the other, because the
+  /// integrals of all faces take much memory. Collective.
+  template <typename Number>
+  void for_each_integrals(const Points<Number>       &x,
+                          const Points<Number>       &n,
+                          const UseIntegrals<Number> &use) const;
   /// Call visit(place in row_nodes[row], weight) for @p node, or for each of its masters if @p node
   /// hangs.
   template <typename Visit>

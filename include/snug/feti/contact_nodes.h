@@ -3,7 +3,8 @@
 
 #include <snug/feti/coarse_space.h>
 
-#include <map>
+#include <boost/range/iterator_range.hpp>
+
 #include <vector>
 
 namespace snug::feti {
@@ -11,15 +12,26 @@ namespace snug::feti {
 /// the motions of rigid bodies, which would couple all rows of a body but have no weight in W.
 struct EqualityEntries
 {
+  /// Lists of entries, one after the other.
+  struct Lists
+  {
+    auto operator[](unsigned int i) const
+    {
+      return boost::make_iterator_range(numbers.begin() + start[i], numbers.begin() + start[i + 1]);
+    }
+    std::vector<unsigned int> start{0}, numbers;
+  };
+
   EqualityEntries(const RowLayout &layout, const SubdomainTable &table);
 
-  std::vector<RowLayout::Unknown>            unknowns; ///< of the entries, in the order of rows
-  std::map<RowLayout::Unknown, unsigned int> place;    ///< in unknowns
-  std::vector<unsigned int>                  row;      ///< owned row of each gathered entry
-  /// place in unknowns of each gathered entry in of_row
-  std::vector<unsigned int>              unknown;
-  std::vector<std::vector<unsigned int>> of_row; ///< by owned row; empty for contact rows
-  std::vector<std::vector<unsigned int>> of_unknown;
+  /// Return the place of an unknown in unknowns, or the number of unknowns.
+  unsigned int place(const RowLayout::Unknown &unknown) const;
+
+  std::vector<RowLayout::Unknown> unknowns; ///< of the entries, ascending
+  std::vector<unsigned int>       row;      ///< owned row of each gathered entry
+  std::vector<unsigned int>       unknown;  ///< place() of the unknown of each gathered entry
+  Lists                           of_row;   ///< by owned row; empty for contact rows
+  Lists                           of_unknown;
 };
 
 /**

@@ -94,14 +94,6 @@ private:
   std::vector<std::pair<double, std::string>> series;
 };
 
-/// Write the series solution.pvd and contact.pvd of the states of all load cases, with their
-/// numbers as times. @p fields and @p faces are the files of the load cases, relative to @p
-/// directory. Collective.
-/// @throws std::runtime_error if a file cannot be written.
-void write_load_cases(MPI_Comm                        comm,
-                      const std::string              &directory,
-                      const std::vector<std::string> &fields,
-                      const std::vector<std::string> &faces);
 } // namespace snug::io
 
 #endif

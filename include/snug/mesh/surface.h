@@ -42,7 +42,7 @@ public:
   const std::vector<Face> &faces() const { return surface_faces; }
   unsigned int             n_nodes() const { return global_nodes.size(); }
   /// Return the number of nodes and samples.
-  unsigned int n_points() const { return reference.size(); }
+  unsigned int n_points() const { return points; }
   /// Return the reference positions of the points.
   const Field &reference_positions() const { return reference; }
   unsigned int global_node(unsigned int surface_node) const { return global_nodes[surface_node]; }
@@ -61,6 +61,8 @@ public:
 
   /// Return the values of a mesh field at the nodes or points of the surface. Collective.
   Field gather(const mesh::Field<dim> &field) const;
+  /// Return the values of a mesh field at the nodes alone. Collective.
+  Field gather_nodes(const mesh::Field<dim> &field) const;
   /// Return the body of each point.
   std::vector<unsigned int> bodies_of_points() const;
   /// Add a surface field to a field of nodes or points, at the nodes and samples that this rank
@@ -83,10 +85,9 @@ private:
   /// Local numbers of the samples of the faces of this rank.
   using OwnSamples = std::map<FaceRecord, const std::vector<unsigned int> *>;
 
-  void add_faces(const std::vector<FaceRecord>              &records,
-                 const std::map<unsigned int, unsigned int> &index,
-                 const OwnSamples                           &samples);
-  void find_owned(const std::map<unsigned int, unsigned int> &index);
+  void  add_faces(const std::vector<FaceRecord> &records, const OwnSamples &samples);
+  void  find_owned();
+  Field sum_of_owners(const mesh::Field<dim> &field, bool with_samples) const;
 
   const BodyMesh<dim>                                      &mesh;
   std::vector<Face>                                         surface_faces;
@@ -95,6 +96,7 @@ private:
   /// (surface, local) numbers of the nodes and samples that this rank owns
   std::vector<std::pair<unsigned int, unsigned int>>    owned, owned_samples;
   std::vector<std::vector<geometry::KnownSurface<dim>>> known_surfaces; ///< per body
+  unsigned int                                          points = 0; ///< number of nodes and samples
   Field                                                 reference;
 };
 } // namespace snug::mesh
