@@ -81,24 +81,28 @@ def hard_cases(_sizes, quick):
             (scenes[:1] + scenes[8:] if quick else scenes)]
 
 
+def growing(name, cells, ranks, mortar, entries=()):
+    """Return a case of bodies that grow with the ranks: cells per edge of a body on one rank. Without
+    soft modes, because only wide bodies have some, at the edges of the sphere."""
+    # as many as ranks of them, as near to a square as powers of two allow
+    across = 2 ** (ranks.bit_length() // 2)
+    along = ranks // across
+    grown = [f"Body {body}/Box {entry}"
+             for body, corner, m in (("punch", 1, cells), ("foundation", 0, cells - 2 * mortar))
+             for entry in (f"cells={m * across}, {m * along}, {m}",
+                           f"size={across}, {along}, 1", f"corner=0, 0, {corner}")]
+    method = ["Contact/Method=mortar"] if mortar else []
+    return hertz(name, 9, [*TORN, *grown, "Solver/Soft modes=none", *method, *entries], ranks)
+
+
 def ranks_cases(sizes, quick):
     n, counts = (6 if quick else 24), [2 ** k for k in range(1 + max(sizes or [2]).bit_length())]
     counts = [ranks for ranks in counts if ranks <= max(sizes or [2])]
     cases = [hertz("same work", 9, TORN + cubes(n), ranks) for ranks in counts]
-    # 15 cells make cubes of 5 cells on any number of ranks. Without soft modes, because only wide
-    # bodies have some, at the edges of the sphere.
-    per_rank, none = (3 if quick else 15), ["Solver/Soft modes=none"]
-    for name, other, entries in (("more work", per_rank, []),
-                                 ("more work, mortar", per_rank - 2, ["Contact/Method=mortar"])):
-        for ranks in counts:
-            # as many as ranks of them, as near to a square as powers of two allow
-            across = 2 ** (ranks.bit_length() // 2)
-            along = ranks // across
-            grown = [f"Body {body}/Box {entry}"
-                     for body, corner, m in (("punch", 1, per_rank), ("foundation", 0, other))
-                     for entry in (f"cells={m * across}, {m * along}, {m}",
-                                   f"size={across}, {along}, 1", f"corner=0, 0, {corner}")]
-            cases.append(hertz(name, 9, TORN + grown + none + entries, ranks))
+    # 15 cells make cubes of 5 cells on any number of ranks.
+    per_rank = 3 if quick else 15
+    for name, mortar in (("more work", False), ("more work, mortar", True)):
+        cases += [growing(name, per_rank, ranks, mortar) for ranks in counts]
     return cases
 
 
@@ -197,6 +201,7 @@ def row_of(program, case, summaries, name):
     last = summaries[-1]
     return {"program": program, "case": case.name, "ranks": case.ranks,
             "unknowns": last["mesh"]["dofs"], "subdomains": last["mesh"]["subdomains"],
+            "contact_rows": last["mesh"]["contact_rows"],
             "seconds": median(lambda s: s["seconds"], 3), "cpu": median(lambda s: s["cpu"], 3),
             "MB": median(lambda s: s["MB"]),
             **{stage: median(lambda s, stage=stage: s["times"].get(stage, 0.), 3)

@@ -7,13 +7,14 @@ RANKS and COARSE are the tables of contrib/bench ranks (to 16 ranks, more than t
 contrib/bench coarse. Prints what was fitted and, in markdown, what it predicts: seconds of a cold
 state and megabytes per rank, and what limits it first.
 
-Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains in C clusters:
-  setup    a n/p + b n              seconds, from 1 and 2 ranks: b is what every rank does for all
+Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains in C clusters, r contact rows:
+  setup    a n/p + b r              seconds, from 1 and 2 ranks: b is what every rank does for all
   factors  c n/p
   F-mult   d n/p + s(C) + messages (LATENCY + bytes/BANDWIDTH) + collectives (...) log2 p
   face     f(C)                     the coarse factorization after a change of the active set
-  memory   M0 + M1 n/p + M2 n + m(C)
+  memory   M0 + M1 n/p + M2 r + m(C)
 f, s and m are of the coarse problem that each rank keeps, powers of C beyond what was measured.
+The two cubes of the predictions have r = (n/6)^(2/3) rows. All other surfaces grow as r.
 Clusters need more F-mults. The last table has subdomains that are not joined, C = N: of their
 large coarse problem, which a team of ranks shares, f, s and m are multiplied by the ratios of the
 largest teams that were measured to one rank, seconds by CORES/members as if each member had its
@@ -47,6 +48,11 @@ def cluster_edge(subdomains):
     while subdomains > MOST_SINGLE and subdomains / edge ** 3 > MOST_CLUSTERS:
         edge += 1
     return edge
+
+
+def contact_rows(n):
+    """Return the contact rows of two cubes with n unknowns in all."""
+    return (n / 6.) ** (2. / 3.)
 
 
 def team(parts, p):
@@ -97,14 +103,10 @@ class Model:
         same = [row for row in ranks if row["case"] == "same work"]
         timed = [row for row in same if row["ranks"] <= CORES]
         one, n = timed[0], timed[0]["unknowns"]
-        self.setup = least_squares([[n / row["ranks"], n] for row in timed],
+        self.setup = least_squares([[n / row["ranks"], row["contact_rows"]] for row in timed],
                                    [row["setup"] for row in timed])
         self.factors = (one["factorization"] + one["assembly"]) / n
         self.f_mult = one["solve"] / one["f_mults"] / n
-        sized = [row for row in ranks if row["case"] in ("same work", "more work")]
-        self.memory = least_squares(
-            [[1., row["unknowns"] / row["ranks"], row["unknowns"]] for row in sized],
-            [row["MB_solve"] for row in sized])
         most = max(same, key=lambda row: row["ranks"])
         share = (most["unknowns"] / most["ranks"]) ** (2. / 3.)
         self.messages = most["messages_per_f_mult"]
@@ -114,6 +116,10 @@ class Model:
         alone = [row for row in coarse if row["ranks"] == 1]
         self.coarse = {key: Power([(row["subdomains"], row[key]) for row in alone])
                        for key in COARSE}
+        sized = [row for row in ranks if row["case"] in ("same work", "more work")]
+        self.memory = least_squares(
+            [[1., row["unknowns"] / row["ranks"], row["contact_rows"]] for row in sized],
+            [row["MB_solve"] - self.coarse["MB"](row["subdomains"]) for row in sized])
         largest = max(alone, key=lambda row: row["subdomains"])
         self.teams = {int(row["ranks"]): {
             key: row[key] / largest[key] * (1. if key == "MB" else min(1., CORES / row["ranks"]))
@@ -136,7 +142,7 @@ class Model:
         collectives = math.log2(p) * (self.collectives * LATENCY
                                       + self.bytes_per_subdomain * parts / BANDWIDTH)
         return {"setup, of the rank's part": self.setup[0] * n / p,
-                "setup, of all on each rank": self.setup[1] * n,
+                "setup, of all on each rank": self.setup[1] * contact_rows(n),
                 "factorizations": self.factors * n / p,
                 "F": f_mults * self.f_mult * n / p,
                 "coarse solves": f_mults * COARSE_SOLVES * self.of_coarse("solve", parts, p),
@@ -149,16 +155,16 @@ class Model:
         subdomains = n / UNKNOWNS_PER_SUBDOMAIN
         parts = subdomains / (cluster_edge(subdomains) if joins else 1) ** 3
         return {"of the rank's part": self.memory[0] + self.memory[1] * n / p,
-                "of all on each rank": self.memory[2] * n,
+                "of all on each rank": self.memory[2] * contact_rows(n),
                 "coarse factor": self.of_coarse("MB", parts, p)}
 
 
 def main(ranks, coarse):
     model = Model(read_csv(ranks), read_csv(coarse))
-    print(f"setup {model.setup[0]:.2e} s/unknown of the rank, {model.setup[1]:.2e} of all;",
+    print(f"setup {model.setup[0]:.2e} s/unknown of the rank, {model.setup[1]:.2e} s/contact row;",
           f"factorizations {model.factors:.2e}; F-mult {model.f_mult:.2e}")
     print(f"memory {model.memory[0]:.0f} MB + {1e3 * model.memory[1]:.2f} kB/unknown of the rank",
-          f"+ {1e3 * model.memory[2]:.3f} of all")
+          f"+ {1e3 * model.memory[2]:.2f} kB/contact row")
     print(f"per F-mult {model.messages:.1f} messages, {model.collectives:.1f} collective calls of",
           f"{model.bytes_per_subdomain:.0f} bytes per subdomain")
     print("coarse exponents: " + ", ".join(

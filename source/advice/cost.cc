@@ -3,7 +3,6 @@
 #include <snug/elasticity/element.h>
 #include <snug/geometry/face_list.h>
 #include <snug/mesh/parts.h>
-#include <snug/mesh/surface.h>
 #include <snug/response/response.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -29,11 +29,19 @@ count_nodes(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh, const st
       if (const auto [body, boundary] = scene::split_face(face);
           !boundary.empty() && scene.bodies[b].name == body)
         boundaries.emplace_back(b, geometry::boundary_index(mesh.geometry(b), boundary));
-  const mesh::Surface<dim> surface(mesh, boundaries);
-  double                   n = 0.;
-  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    n += surface.masters(node).empty();
-  return n;
+  // Several ranks have faces at a node, so that its owner counts it.
+  std::map<unsigned int, std::vector<unsigned int>> nodes_of_owner;
+  for (const auto &face : mesh.boundary_faces())
+    if (std::find(boundaries.begin(), boundaries.end(),
+                  contact::Boundary(face.body, face.boundary)) != boundaries.end())
+      for (const unsigned int node : face.nodes)
+        if (!mesh.is_hanging(node))
+          nodes_of_owner[mesh.owner(node)].push_back(mesh.global_node(node));
+  std::set<unsigned int> nodes;
+  for (const auto &message :
+       dealii::Utilities::MPI::some_to_some(mesh.communicator(), nodes_of_owner))
+    nodes.insert(message.second.begin(), message.second.end());
+  return dealii::Utilities::MPI::sum(static_cast<double>(nodes.size()), mesh.communicator());
 }
 } // namespace
 

@@ -110,12 +110,14 @@ double largest_load(const mesh::BodyMesh<dim>      &mesh,
         {
           // The load need not be finite here, because it is integrated at other points.
         }
-  const mesh::Surface<dim> surface(mesh, {boundary});
-  const auto               x     = surface.gather(mesh.reference_positions());
-  const double             force = load.resultant.force.norm();
+  largest            = dealii::Utilities::MPI::max(largest, mesh.communicator());
+  const double force = load.resultant.force.norm();
   // A boundary on the axis of revolution has no area, and no total force.
-  return dealii::Utilities::MPI::max(largest, mesh.communicator()) +
-         (force > 0. ? force / io::area_of<dim>(mesh.degree(), surface, boundary, x) : 0.);
+  if (force == 0.)
+    return largest;
+  const mesh::Surface<dim> surface(mesh, {boundary});
+  return largest +
+         force / io::area_of<dim>(mesh.degree(), surface, boundary, surface.reference_positions());
 }
 
 /// Return a warning for each boundary whose loads per area exceed Young's modulus of its body, as

@@ -1,6 +1,7 @@
 #include <snug/faces/outer_edges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace snug::faces {
 namespace {
@@ -19,46 +20,69 @@ OuterEdges<dim>::OuterEdges(const mesh::Surface<dim>        &surface,
                             const FaceShape<dim>            &shape)
   : surface(surface), shape(shape)
 {
-  // n_faces is the number of faces with the same edge nodes. Halves tells whether edges with the
-  // same masters are found with (fine) and without (coarse) hanging nodes. The halves of an edge
-  // reach the same masters as the coarse edge that contains them.
+  // Edges of one face alone are candidates. Faces that share an edge have the same ends of it.
+  using Ends = std::pair<unsigned int, unsigned int>;
+  std::vector<std::pair<Ends, Edge>> edges;
+  for (const unsigned int face : faces)
+    for (unsigned int edge = 0; edge < 2 * (dim - 1); ++edge)
+      edges.emplace_back(ends_of(face, edge), Edge(face, edge));
+  std::sort(edges.begin(), edges.end());
+  std::vector<Edge> candidates;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if ((i == 0 || edges[i - 1].first != edges[i].first) &&
+        (i + 1 == edges.size() || edges[i + 1].first != edges[i].first))
+      candidates.push_back(edges[i].second);
+  // Where meshes of different fineness meet, the edge of the coarse face and its halves have
+  // different ends, so that each of them is on one face only. Both reach the same masters, which
+  // shows that they are not at the end of the side.
   struct Halves
   {
     bool coarse = false, fine = false;
   };
-  std::map<std::vector<unsigned int>, unsigned int> n_faces;
-  std::map<std::vector<unsigned int>, Halves>       halves;
-  for (const unsigned int face : faces)
-    for (unsigned int edge = 0; edge < 2 * (dim - 1); ++edge)
-      {
-        const auto nodes = edge_nodes(face, edge);
-        // Where meshes of different fineness meet, the edge of the coarse face and its halves have
-        // different nodes, so that each of them is on one face only. Both reach the same masters,
-        // which shows that they are not at the end of the side.
-        const bool hanging = std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
-          return !surface.masters(node).empty();
-        });
-        ++n_faces[nodes];
-        auto &half                          = halves[edge_masters(nodes)];
-        (hanging ? half.fine : half.coarse) = true;
-      }
-  for (const unsigned int face : faces)
-    for (unsigned int edge = 0; edge < 2 * (dim - 1); ++edge)
-      {
-        const auto nodes = edge_nodes(face, edge);
-        const auto half  = halves.at(edge_masters(nodes));
-        if (n_faces.at(nodes) > 1 || (half.coarse && half.fine))
-          continue;
-        outer.emplace_back(face, edge);
-        for (const unsigned int node : nodes)
-          outer_at_vertex[node].emplace_back(face, edge);
-      }
+  std::map<std::vector<unsigned int>, Halves> halves;
+  for (const auto &[face, edge] : candidates)
+    {
+      const auto nodes   = edge_nodes(face, edge);
+      const bool hanging = std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
+        return !surface.masters(node).empty();
+      });
+      auto      &half    = halves[edge_masters(nodes)];
+      (hanging ? half.fine : half.coarse) = true;
+    }
+  for (const auto &[face, edge] : candidates)
+    {
+      const auto nodes = edge_nodes(face, edge);
+      const auto half  = halves.at(edge_masters(nodes));
+      if (half.coarse && half.fine)
+        continue;
+      outer.emplace_back(face, edge);
+      for (const unsigned int node : nodes)
+        outer_at_vertex[node].emplace_back(face, edge);
+    }
   // Sort the edges for the binary search of excess().
   std::sort(outer.begin(), outer.end());
 }
 
+/// Return the two ends of an edge, the lower first. In 2D an "edge" is a node.
+template <int dim>
+std::pair<unsigned int, unsigned int> OuterEdges<dim>::ends_of(unsigned int face,
+                                                               unsigned int edge) const
+{
+  const auto                           &nodes = surface.faces()[face].nodes;
+  std::pair<unsigned int, unsigned int> ends;
+  bool                                  is_first = true;
+  for (unsigned int k = 0; k < shape.n_nodes(); ++k)
+    if (shape.node(k)[edge / 2] == edge % 2)
+      {
+        if (std::exchange(is_first, false))
+          ends.first = nodes[k];
+        ends.second = nodes[k];
+      }
+  return {std::min(ends.first, ends.second), std::max(ends.first, ends.second)};
+}
+
 /// Return the nodes of an edge, sorted, so that two faces give the same result for an edge they
-/// share. In 2D an "edge" is a node.
+/// share.
 template <int dim>
 std::vector<unsigned int> OuterEdges<dim>::edge_nodes(unsigned int face, unsigned int edge) const
 {

@@ -41,12 +41,13 @@ private:
   std::vector<Edge>                         outer;
   std::map<unsigned int, std::vector<Edge>> outer_at_vertex;
 
-  std::vector<unsigned int> edge_nodes(unsigned int face, unsigned int edge) const;
-  std::vector<unsigned int> edge_masters(const std::vector<unsigned int> &nodes) const;
-  double                    excess_at_edge(const Edge                               &edge,
-                                           const dealii::Point<dim - 1>             &xi,
-                                           const dealii::Tensor<1, dim>             &offset,
-                                           const typename mesh::Surface<dim>::Field &positions) const;
+  std::pair<unsigned int, unsigned int> ends_of(unsigned int face, unsigned int edge) const;
+  std::vector<unsigned int>             edge_nodes(unsigned int face, unsigned int edge) const;
+  std::vector<unsigned int>             edge_masters(const std::vector<unsigned int> &nodes) const;
+  double                                excess_at_edge(const Edge                               &edge,
+                                                       const dealii::Point<dim - 1>             &xi,
+                                                       const dealii::Tensor<1, dim>             &offset,
+                                                       const typename mesh::Surface<dim>::Field &positions) const;
 };
 } // namespace snug::faces
 
