@@ -99,10 +99,20 @@ def ranks_cases(sizes, quick):
     n, counts = (6 if quick else 24), [2 ** k for k in range(1 + max(sizes or [2]).bit_length())]
     counts = [ranks for ranks in counts if ranks <= max(sizes or [2])]
     cases = [hertz("same work", 9, TORN + cubes(n), ranks) for ranks in counts]
+    # about as many cells in flat bodies, with six times the contact rows
+    wide, high = 5 * n // 2, n // 6
+    flat = [f"Body {body}/Box {entry}" for body, z in (("punch", high / wide), ("foundation", 0.))
+            for entry in (f"cells={wide}, {wide}, {high}", f"size=1, 1, {high / wide}",
+                          f"corner=0, 0, {z}")]
+    cases += [hertz("same work, flat", 9, TORN + flat + ["Solver/Soft modes=none"], ranks)
+              for ranks in counts if ranks <= 2]
     # 15 cells make cubes of 5 cells on any number of ranks.
     per_rank = 3 if quick else 15
-    for name, mortar in (("more work", False), ("more work, mortar", True)):
-        cases += [growing(name, per_rank, ranks, mortar) for ranks in counts]
+    joined = ["Decomposition/Subdomains per cluster edge=2"]
+    for name, mortar, entries in (("more work", False, []), ("more work in clusters", False, joined),
+                                  ("more work, mortar", True, []),
+                                  ("more work, mortar in clusters", True, joined)):
+        cases += [growing(name, per_rank, ranks, mortar, entries) for ranks in counts]
     return cases
 
 
@@ -201,7 +211,7 @@ def row_of(program, case, summaries, name):
     last = summaries[-1]
     return {"program": program, "case": case.name, "ranks": case.ranks,
             "unknowns": last["mesh"]["dofs"], "subdomains": last["mesh"]["subdomains"],
-            "contact_rows": last["mesh"]["contact_rows"],
+            "clusters": last["mesh"]["clusters"], "contact_rows": last["mesh"]["contact_rows"],
             "seconds": median(lambda s: s["seconds"], 3), "cpu": median(lambda s: s["cpu"], 3),
             "MB": median(lambda s: s["MB"]),
             **{stage: median(lambda s, stage=stage: s["times"].get(stage, 0.), 3)

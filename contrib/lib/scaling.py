@@ -8,7 +8,8 @@ contrib/bench coarse. Prints what was fitted and, in markdown, what it predicts:
 state and megabytes per rank, and what limits it first.
 
 Of n unknowns on p ranks, N = n / UNKNOWNS_PER_SUBDOMAIN subdomains in C clusters, r contact rows:
-  setup    a n/p + b r              seconds, from 1 and 2 ranks: b is what every rank does for all
+  setup    c + a n/p + b r          seconds, from cubes and flat bodies on 1 and 2 ranks: c and b
+                                    are what every rank does for all
   factors  c n/p
   F-mult   d n/p + s(C) + messages (LATENCY + bytes/BANDWIDTH) + collectives (...) log2 p
   face     f(C)                     the coarse factorization after a change of the active set
@@ -103,8 +104,9 @@ class Model:
         same = [row for row in ranks if row["case"] == "same work"]
         timed = [row for row in same if row["ranks"] <= CORES]
         one, n = timed[0], timed[0]["unknowns"]
-        self.setup = least_squares([[n / row["ranks"], row["contact_rows"]] for row in timed],
-                                   [row["setup"] for row in timed])
+        with_flat = timed + [row for row in ranks if row["case"] == "same work, flat"]
+        self.setup = least_squares([[1., row["unknowns"] / row["ranks"], row["contact_rows"]]
+                                    for row in with_flat], [row["setup"] for row in with_flat])
         self.factors = (one["factorization"] + one["assembly"]) / n
         self.f_mult = one["solve"] / one["f_mults"] / n
         most = max(same, key=lambda row: row["ranks"])
@@ -116,10 +118,10 @@ class Model:
         alone = [row for row in coarse if row["ranks"] == 1]
         self.coarse = {key: Power([(row["subdomains"], row[key]) for row in alone])
                        for key in COARSE}
-        sized = [row for row in ranks if row["case"] in ("same work", "more work")]
+        sized = [row for row in ranks if row["case"] in ("same work", "more work in clusters")]
         self.memory = least_squares(
             [[1., row["unknowns"] / row["ranks"], row["contact_rows"]] for row in sized],
-            [row["MB_solve"] - self.coarse["MB"](row["subdomains"]) for row in sized])
+            [row["MB_solve"] - self.coarse["MB"](row["clusters"]) for row in sized])
         largest = max(alone, key=lambda row: row["subdomains"])
         self.teams = {int(row["ranks"]): {
             key: row[key] / largest[key] * (1. if key == "MB" else min(1., CORES / row["ranks"]))
@@ -141,8 +143,8 @@ class Model:
         messages = self.messages * LATENCY + self.bytes_per_share * (n / p) ** (2. / 3.) / BANDWIDTH
         collectives = math.log2(p) * (self.collectives * LATENCY
                                       + self.bytes_per_subdomain * parts / BANDWIDTH)
-        return {"setup, of the rank's part": self.setup[0] * n / p,
-                "setup, of all on each rank": self.setup[1] * contact_rows(n),
+        return {"setup, of the rank's part": self.setup[1] * n / p,
+                "setup, of all on each rank": self.setup[0] + self.setup[2] * contact_rows(n),
                 "factorizations": self.factors * n / p,
                 "F": f_mults * self.f_mult * n / p,
                 "coarse solves": f_mults * COARSE_SOLVES * self.of_coarse("solve", parts, p),
@@ -161,7 +163,8 @@ class Model:
 
 def main(ranks, coarse):
     model = Model(read_csv(ranks), read_csv(coarse))
-    print(f"setup {model.setup[0]:.2e} s/unknown of the rank, {model.setup[1]:.2e} s/contact row;",
+    print(f"setup {model.setup[0]:.2e} s + {model.setup[1]:.2e} s/unknown of the rank",
+          f"+ {model.setup[2]:.2e} s/contact row;",
           f"factorizations {model.factors:.2e}; F-mult {model.f_mult:.2e}")
     print(f"memory {model.memory[0]:.0f} MB + {1e3 * model.memory[1]:.2f} kB/unknown of the rank",
           f"+ {1e3 * model.memory[2]:.2f} kB/contact row")
