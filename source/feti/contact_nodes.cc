@@ -24,7 +24,7 @@ struct ContactNodes::Met
   }
 };
 
-EqualityEntries::EqualityEntries(const RowLayout &layout, const SubdomainTable &table)
+RowEntries::RowEntries(const RowLayout &layout, const SubdomainTable &table, const qp::RowSet &rows)
 {
   const auto &start = layout.entry_start();
   for (unsigned int r = 0; r < layout.n_owned(); ++r)
@@ -33,7 +33,7 @@ EqualityEntries::EqualityEntries(const RowLayout &layout, const SubdomainTable &
         {
           row.push_back(r);
           const Unknown &of_entry = layout.entry_unknowns()[e];
-          if (layout.contact_rows()[r] || table.is_rigid(of_entry.subdomain))
+          if (!rows[r] || table.is_rigid(of_entry.subdomain))
             continue;
           of_row.numbers.push_back(e);
           unknowns.push_back(of_entry);
@@ -56,7 +56,7 @@ EqualityEntries::EqualityEntries(const RowLayout &layout, const SubdomainTable &
     of_unknown.numbers[next[unknown[e]]++] = e;
 }
 
-unsigned int EqualityEntries::place(const Unknown &of_entry) const
+unsigned int RowEntries::place(const Unknown &of_entry) const
 {
   const auto found = std::lower_bound(unknowns.begin(), unknowns.end(), of_entry);
   return narrow<unsigned int>(
@@ -67,7 +67,7 @@ unsigned int EqualityEntries::place(const Unknown &of_entry) const
 /// that own equality rows of their unknowns. Return those that arrive, sorted. Collective.
 std::vector<ContactNodes::Met> ContactNodes::meet(const RowLayout        &layout,
                                                   const SubdomainTable   &table,
-                                                  const EqualityEntries  &equalities,
+                                                  const RowEntries       &equalities,
                                                   const std::vector<Met> &mine)
 {
   using Numbers          = std::map<unsigned int, std::vector<unsigned int>>; // by rank
@@ -109,9 +109,9 @@ std::vector<ContactNodes::Met> ContactNodes::meet(const RowLayout        &layout
   return result;
 }
 
-ContactNodes::ContactNodes(const RowLayout       &layout,
-                           const SubdomainTable  &table,
-                           const EqualityEntries &equalities)
+ContactNodes::ContactNodes(const RowLayout      &layout,
+                           const SubdomainTable &table,
+                           const RowEntries     &equalities)
   : communicator(layout.communicator()), rows_of_contact(layout.contact_rows())
 {
   any = qp::any(std::count(rows_of_contact.begin(), rows_of_contact.end(), 1) > 0, communicator);
@@ -150,7 +150,7 @@ ContactNodes::ContactNodes(const RowLayout       &layout,
 
 /// Add the node of all unknowns that node rows connect with the unknown @p first.
 void ContactNodes::add_node(const RowLayout                 &layout,
-                            const EqualityEntries           &equalities,
+                            const RowEntries                &equalities,
                             const std::vector<Met>          &met,
                             const std::vector<unsigned int> &global_rows,
                             const Unknown                   &first,

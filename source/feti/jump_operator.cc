@@ -1,3 +1,4 @@
+#include <snug/base/disjoint_sets.h>
 #include <snug/base/narrow.h>
 #include <snug/feti/jump_operator.h>
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace snug::feti {
@@ -17,58 +17,30 @@ using Unknown = RowLayout::Unknown;
 /// Node rows and unknowns of this rank, in groups such that no row couples two groups.
 struct Groups
 {
-  std::vector<Unknown>                   unknowns; ///< ascending
-  std::vector<std::vector<unsigned int>> entries;  ///< gathered entries of each unknown
-  std::vector<std::vector<unsigned int>> members;  ///< unknowns of each group, ascending
-  std::vector<unsigned int>              row_of_entry;
+  RowEntries                             entries;
+  std::vector<std::vector<unsigned int>> members; ///< unknowns of each group, ascending
   std::size_t stride; ///< distance between the numbers of consecutive entries
 };
 
-Groups groups_of(const RowLayout &layout, const std::size_t stride)
+Groups groups_of(const RowLayout &layout, const SubdomainTable &table, const std::size_t stride)
 {
-  const auto                                  &start = layout.entry_start();
-  std::map<Unknown, std::vector<unsigned int>> entries;
+  Groups       groups{RowEntries(layout, table, layout.node_rows()), {}, stride};
+  const auto  &entries = groups.entries;
+  const auto   n       = narrow<unsigned int>(entries.unknowns.size());
+  DisjointSets sets(n);
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    if (layout.node_rows()[row])
-      for (unsigned int e = start[row]; e < start[row + 1]; ++e)
-        entries[layout.entry_unknowns()[e]].push_back(e);
-  Groups groups;
-  groups.stride = stride;
-  for (unsigned int row = 0; row < layout.n_owned(); ++row)
-    groups.row_of_entry.insert(groups.row_of_entry.end(), start[row + 1] - start[row], row);
-  std::vector<unsigned int> root;
-  for (const auto &[unknown, of_unknown] : entries)
+    for (const unsigned int e : entries.of_row[row])
+      sets.join(entries.unknown[entries.of_row[row].front()], entries.unknown[e]);
+  std::vector<unsigned int> group_of_root(n);
+  for (unsigned int i = 0; i < n; ++i)
     {
-      groups.unknowns.push_back(unknown);
-      groups.entries.push_back(of_unknown);
-    }
-  root.resize(groups.unknowns.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](unsigned int i) {
-    while (root[i] != i)
-      i = root[i] = root[root[i]];
-    return i;
-  };
-  const unsigned int        none = narrow<unsigned int>(root.size());
-  std::vector<unsigned int> unknown_of_row(layout.n_owned(), none);
-  for (unsigned int i = 0; i < root.size(); ++i)
-    for (const unsigned int e : groups.entries[i])
-      {
-        const unsigned int row = groups.row_of_entry[e];
-        if (unknown_of_row[row] == none)
-          unknown_of_row[row] = i;
-        // The root is the first member of its group.
-        const unsigned int a = find(unknown_of_row[row]), b = find(i);
-        root[std::max(a, b)] = std::min(a, b);
-      }
-  std::map<unsigned int, unsigned int> group_of_root;
-  for (unsigned int i = 0; i < root.size(); ++i)
-    {
-      const auto found =
-        group_of_root.emplace(find(i), narrow<unsigned int>(groups.members.size())).first;
-      if (found->second == groups.members.size())
-        groups.members.emplace_back();
-      groups.members[found->second].push_back(i);
+      const unsigned int root = sets.find(i);
+      if (root == i)
+        {
+          group_of_root[i] = narrow<unsigned int>(groups.members.size());
+          groups.members.emplace_back();
+        }
+      groups.members[group_of_root[root]].push_back(i);
     }
   return groups;
 }
@@ -85,8 +57,8 @@ qp::MultiVector row_forces_of(const RowLayout           &layout,
   qp::MultiVector X(layout.n_owned(), narrow<unsigned int>(width));
   for (const auto &members : groups.members)
     for (unsigned int k = 0; k < members.size(); ++k)
-      for (const unsigned int e : groups.entries[members[k]])
-        X(groups.row_of_entry[e], k) = entries[e * groups.stride] * entries[e * groups.stride + 1];
+      for (const unsigned int e : groups.entries.of_unknown[members[k]])
+        X(groups.entries.row[e], k) = entries[e * groups.stride] * entries[e * groups.stride + 1];
   gram.solve_node_rows(X);
   return X;
 }
@@ -100,21 +72,21 @@ JumpColumn column(const RowLayout                 &layout,
                   const unsigned int               k)
 {
   const std::size_t      stride  = groups.stride;
-  const Unknown         &unknown = groups.unknowns[members[k]];
+  const Unknown         &unknown = groups.entries.unknowns[members[k]];
   JumpColumn             result{unknown.subdomain, unknown.dof, {}, {}};
   std::set<unsigned int> rows;
   for (const unsigned int other : members)
     {
       double sum = 0.;
-      for (const unsigned int e : groups.entries[other])
+      for (const unsigned int e : groups.entries.of_unknown[other])
         {
-          rows.insert(groups.row_of_entry[e]);
-          sum += entries[e * stride] * X(groups.row_of_entry[e], k) * entries[e * stride + 1];
+          rows.insert(groups.entries.row[e]);
+          sum += entries[e * stride] * X(groups.entries.row[e], k) * entries[e * stride + 1];
         }
       // B_D' B e_i = D^-1 B' W^-1 B e_i, where X holds W^-1 B D^-1 e_i
-      const double D = 1. / entries[groups.entries[members[k]][0] * stride + 1];
+      const double D = 1. / entries[groups.entries.of_unknown[members[k]].front() * stride + 1];
       result.copies.push_back(
-        {groups.unknowns[other].subdomain, groups.unknowns[other].dof, D * sum});
+        {groups.entries.unknowns[other].subdomain, groups.entries.unknowns[other].dof, D * sum});
     }
   for (const unsigned int row : rows)
     result.forces.push_back({layout.global_row(row), X(row, k)});
@@ -127,24 +99,24 @@ std::vector<JumpColumns> jump_operator(const RowLayout           &layout,
                                        const RowGram             &gram,
                                        const std::vector<double> &entries,
                                        const unsigned int         stride,
-                                       const unsigned int         first,
+                                       const SubdomainTable      &table,
                                        const unsigned int         n_subdomains)
 {
   const MPI_Comm                      comm   = layout.communicator();
-  const auto                          groups = groups_of(layout, stride);
+  const auto                          groups = groups_of(layout, table, stride);
   const auto                          X      = row_forces_of(layout, gram, groups, entries);
-  const SubdomainRanks                rank_of(first, comm);
+  const SubdomainRanks                rank_of(table.first, comm);
   std::map<unsigned int, JumpColumns> out;
   for (const auto &members : groups.members)
     for (unsigned int k = 0; k < members.size(); ++k)
-      out[rank_of(groups.unknowns[members[k]].subdomain)].push_back(
+      out[rank_of(groups.entries.unknowns[members[k]].subdomain)].push_back(
         column(layout, groups, entries, X, members, k));
   auto received = dealii::Utilities::MPI::some_to_some(comm, out);
   out.clear(); // the columns take much memory
   std::vector<JumpColumns> result(n_subdomains);
   for (auto &message : received)
     for (JumpColumn &of_unknown : message.second)
-      result[of_unknown.subdomain - first].push_back(std::move(of_unknown));
+      result[of_unknown.subdomain - table.first].push_back(std::move(of_unknown));
   // Messages arrive rank by rank.
   for (auto &columns : result)
     std::sort(columns.begin(), columns.end(),

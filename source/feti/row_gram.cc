@@ -1,12 +1,13 @@
 #include <snug/base/narrow.h>
 #include <snug/feti/row_gram.h>
+#include <snug/qp/row_set.h>
 
 #include <algorithm>
 
 namespace snug::feti {
 namespace {
 /// Flag the ties, and the equality rows coupled to a tie by a chain of shared unknowns.
-qp::RowSet coupled_to_ties(const qp::RowSet &ties, const EqualityEntries &entries)
+qp::RowSet coupled_to_ties(const qp::RowSet &ties, const RowEntries &entries)
 {
   qp::RowSet                coupled = ties;
   std::vector<unsigned int> front;
@@ -30,7 +31,9 @@ qp::RowSet coupled_to_ties(const qp::RowSet &ties, const EqualityEntries &entrie
 } // namespace
 
 RowGramStructure::RowGramStructure(const RowLayout &layout, const SubdomainTable &table)
-  : entries(layout, table), contact(layout, table, entries), place(layout.n_owned())
+  : entries(layout, table, qp::complement(layout.contact_rows()))
+  , contact(layout, table, entries)
+  , place(layout.n_owned())
 {
   for (unsigned int row = 0; row < layout.n_owned(); ++row)
     ties.push_back(!layout.contact_rows()[row] && !layout.node_rows()[row]);

@@ -26,7 +26,7 @@ std::vector<RowForces> Linearization::find_soft_modes(const std::vector<double> 
   if (!structure.seeks_soft_modes(systems))
     return forces;
   const unsigned int first   = table().first;
-  const auto         columns = jump_operator(layout(), *gram, entries, 2 + table().n_modes, first,
+  const auto         columns = jump_operator(layout(), *gram, entries, 2 + table().n_modes, table(),
                                              narrow<unsigned int>(systems.size()));
   const auto         neighbours =
     stiffness_of_neighbours(systems, columns, first, context().communicator());

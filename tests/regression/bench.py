@@ -19,7 +19,7 @@ LIB = ROOT / "contrib" / "lib"
 # columns that a row must have above zero, and the number of cases
 EXPECTED = {"whole": (["seconds", "cpu", "MB", "setup", "solve"], 2),
             "hard": (["linear_f_mults", "f_mults"], 7),
-            "ranks": (["f_mults", "MB_solve"], 6),
+            "ranks": (["f_mults", "MB_solve"], 12),
             "gradient": (["cold_states"], 8),
             "optimization": (["evaluations", "f_mults"], 8)}
 # columns above zero where several ranks work together

@@ -8,9 +8,10 @@
 #include <vector>
 
 namespace snug::feti {
-/// This struct lists the gathered entries of the equality rows of this rank, without the entries in
-/// the motions of rigid bodies, which would couple all rows of a body but have no weight in W.
-struct EqualityEntries
+/// This struct lists the gathered entries of some rows of this rank by row and by unknown, without
+/// the entries in the motions of rigid bodies, which would couple all rows of a body but have no
+/// weight in W.
+struct RowEntries
 {
   /// Lists of entries, one after the other.
   struct Lists
@@ -22,7 +23,8 @@ struct EqualityEntries
     std::vector<unsigned int> start{0}, numbers;
   };
 
-  EqualityEntries(const RowLayout &layout, const SubdomainTable &table);
+  /// List the entries of the owned @p rows.
+  RowEntries(const RowLayout &layout, const SubdomainTable &table, const qp::RowSet &rows);
 
   /// Return the place of an unknown in unknowns, or the number of unknowns.
   unsigned int place(const RowLayout::Unknown &unknown) const;
@@ -30,7 +32,7 @@ struct EqualityEntries
   std::vector<RowLayout::Unknown> unknowns; ///< of the entries, ascending
   std::vector<unsigned int>       row;      ///< owned row of each gathered entry
   std::vector<unsigned int>       unknown;  ///< place() of the unknown of each gathered entry
-  Lists                           of_row;   ///< by owned row; empty for contact rows
+  Lists                           of_row;   ///< by owned row; empty for other rows
   Lists                           of_unknown;
 };
 
@@ -42,9 +44,7 @@ struct EqualityEntries
 struct ContactNodes
 {
   /// Find the nodes of the rows of @p layout. Collective.
-  ContactNodes(const RowLayout       &layout,
-               const SubdomainTable  &table,
-               const EqualityEntries &equalities);
+  ContactNodes(const RowLayout &layout, const SubdomainTable &table, const RowEntries &equalities);
 
   /// An entry of a row in one of the unknowns of a node.
   struct Entry
@@ -77,10 +77,10 @@ private:
 
   static std::vector<Met> meet(const RowLayout        &layout,
                                const SubdomainTable   &table,
-                               const EqualityEntries  &equalities,
+                               const RowEntries       &equalities,
                                const std::vector<Met> &mine);
   void                    add_node(const RowLayout                 &layout,
-                                   const EqualityEntries           &equalities,
+                                   const RowEntries                &equalities,
                                    const std::vector<Met>          &met,
                                    const std::vector<unsigned int> &global_rows,
                                    const RowLayout::Unknown        &first,

@@ -57,15 +57,15 @@ struct JumpColumn
 /// Columns of one subdomain, by unknown.
 using JumpColumns = std::vector<JumpColumn>;
 
-/// Return the columns of the jump operator for the @p n_subdomains subdomains of this rank. Their
-/// global ids begin at @p first. @p entries are B and 1/D as in RowGram, @p stride numbers apart.
-/// Of B only the node rows count. Coupled rows would connect all unknowns of a boundary.
+/// Return the columns of the jump operator for the @p n_subdomains subdomains of this rank, which
+/// are those of @p table. @p entries are B and 1/D as in RowGram, @p stride numbers apart.
+/// Of B only the node rows count. Ties would connect all unknowns of a boundary.
 /// Collective.
 std::vector<JumpColumns> jump_operator(const RowLayout           &layout,
                                        const RowGram             &gram,
                                        const std::vector<double> &entries,
                                        unsigned int               stride,
-                                       unsigned int               first,
+                                       const SubdomainTable      &table,
                                        unsigned int               n_subdomains);
 } // namespace snug::feti
 

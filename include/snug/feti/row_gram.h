@@ -20,7 +20,7 @@ struct RowGramStructure
     std::shared_ptr<const CsrPattern> pattern;
   };
 
-  const EqualityEntries     entries;
+  const RowEntries          entries; ///< of the equality rows
   const ContactNodes        contact;
   qp::RowSet                ties;  ///< flag of each owned row
   Group                     alone; ///< node rows that are not coupled to ties

@@ -59,7 +59,7 @@ protected:
     unsigned int                 mine = systems.size();
     MPI_Scan(&mine, &first, 1, MPI_UNSIGNED, MPI_SUM, MPI_COMM_WORLD);
     first -= mine;
-    columns = feti::jump_operator(layout, gram, entries, 2, first, mine);
+    columns = feti::jump_operator(layout, gram, entries, 2, problem->linearization().table(), mine);
   }
 
   /// P_D on the unknowns of block t and those of block s.
