@@ -267,13 +267,19 @@ void ContactGram::solve(const qp::FreeRows &free, qp::MultiVector &x) const
 {
   if (!structure.any)
     return;
-  // The scales commute with the projector, because both tangential rows of a slip have the same.
+  // The scales commute with the projector, because both tangential rows of a slip have the same:
+  // the entry of S across the slip if S is diagonal, else its upper bound, as low and high are
+  // bounds.
   auto of_scale = diagonal;
   for (const qp::Slip &slip : free.slips())
     if (slip.cone.n_tangents == 2)
       {
-        const auto [a, b] = slip.cone.tangents;
-        of_scale[a] = of_scale[b] = std::max(diagonal[a], diagonal[b]);
+        const auto [i, j]      = slip.cone.tangents;
+        const auto across      = slip.across();
+        const bool is_diagonal = n_terms == 1;
+        of_scale[i]            = of_scale[j] =
+          is_diagonal ? across[0] * across[0] * diagonal[i] + across[1] * across[1] * diagonal[j]
+                                 : std::max(diagonal[i], diagonal[j]);
       }
   const auto scaled = [&](qp::MultiVector v) {
     for (unsigned int k = 0; k < v.n_columns(); ++k)
