@@ -185,6 +185,7 @@ void ContactGram::scale()
 }
 
 /// Compare two products of each unit row with random numbers, which are equal for equal rows only.
+/// Rows on rigid bodies may differ in the motions of these bodies, which L does not contain.
 /// Rows of several nodes that depend on each other are not found; they have several solutions for
 /// the multipliers, which the iterations tolerate.
 void ContactGram::find_equal_rows()
@@ -203,7 +204,7 @@ void ContactGram::find_equal_rows()
   const auto                         owned = structure.rows.to_owned(products);
   std::vector<std::array<double, 3>> rows; // two products and the row
   for (unsigned int i = 0; i < diagonal.size(); ++i)
-    if (structure.rows_of_contact[i] && ground[i] == 0.)
+    if (structure.rows_of_contact[i] && !structure.on_rigid[i] && ground[i] == 0.)
       {
         const double by = std::copysign(1. / std::sqrt(diagonal[i]), owned(i, 0));
         rows.push_back({{by * owned(i, 0), by * owned(i, 1), static_cast<double>(i)}});

@@ -112,17 +112,24 @@ std::vector<ContactNodes::Met> ContactNodes::meet(const RowLayout        &layout
 ContactNodes::ContactNodes(const RowLayout      &layout,
                            const SubdomainTable &table,
                            const RowEntries     &equalities)
-  : communicator(layout.communicator()), rows_of_contact(layout.contact_rows())
+  : communicator(layout.communicator())
+  , rows_of_contact(layout.contact_rows())
+  , on_rigid(layout.n_owned(), 0)
 {
   any = qp::any(std::count(rows_of_contact.begin(), rows_of_contact.end(), 1) > 0, communicator);
   if (!any)
     return;
   std::vector<Met> mine;
   for (unsigned int e = 0; e < equalities.row.size(); ++e)
-    if (const auto &unknown = layout.entry_unknowns()[e];
-        rows_of_contact[equalities.row[e]] && !table.is_rigid(unknown.subdomain))
+    if (const unsigned int row = equalities.row[e]; rows_of_contact[row])
       {
-        mine.push_back({unknown, layout.global_row(equalities.row[e]), 0});
+        const Unknown &unknown = layout.entry_unknowns()[e];
+        if (table.is_rigid(unknown.subdomain))
+          {
+            on_rigid[row] = 1;
+            continue;
+          }
+        mine.push_back({unknown, layout.global_row(row), 0});
         sent.push_back(e);
       }
   const auto first = RowExchange::first_of_ranks(communicator, narrow<unsigned int>(sent.size()));

@@ -273,6 +273,21 @@ class ReferencePoints(unittest.TestCase):
         with self.assertRaisesRegex(snug.DesignFailed, "reference point 'tool'"):
             evaluate(scene)
 
+    def test_two_tools_on_the_same_nodes(self):
+        """Two planes at one place press like one of them with the sum of their forces."""
+        def pressed(**forces):
+            scene = {"Dimension": 2, "Bodies": ["pad"], "Obstacles": list(forces),
+                     "Reference points": [f"of {name}" for name in forces],
+                     "Body pad": {"Box size": [3, 1], "Box cells": [6, 2], "Young's modulus": 1000,
+                                  "Supports": "bottom: xy"},
+                     "Contact": {"Pairs": ", ".join(f"pad.top: {name}" for name in forces)}}
+            for name, force in forces.items():
+                scene[f"Obstacle {name}"] = {"Point": [0, 1], "Normal": [0, -1]}
+                scene[f"Reference point of {name}"] = {"Point": [1.5, 2], "Obstacles": [name],
+                                                       "Supports": ["x", "rz"], "Force": [0, -force]}
+            return evaluate(scene)["potential energy"]
+        self.assertAlmostEqual(pressed(a=1, b=2) / pressed(one=3), 1., delta=1e-8)
+
 
 if __name__ == "__main__":
     os.environ["SNUG"] = sys.argv[1]

@@ -63,6 +63,7 @@ struct ContactNodes
 
   MPI_Comm          communicator;
   qp::RowSet        rows_of_contact; ///< flag of each owned row
+  qp::RowSet        on_rigid;        ///< flag of each owned contact row on a rigid body
   bool              any;             ///< whether a rank has contact rows
   std::vector<Node> nodes;           ///< on this rank
   RowExchange       rows;            ///< of the contact rows of the nodes
