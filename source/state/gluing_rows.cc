@@ -203,8 +203,8 @@ void GluingRows<dim>::number_node_rows(const Copies               &nodes,
     }
 }
 
-/// Return the place of the next coupled row. All ranks number these rows alike, because the owner
-/// of a node sends the entries at its copies, whichever rank owns the row.
+/// Return the place of the next row of a spring, a contact or a tie. All ranks number these rows
+/// alike, because rank_of() a node sends the entries at its copies, whichever rank owns the row.
 template <int dim>
 typename GluingRows<dim>::Message GluingRows<dim>::next_row(const unsigned int owner, OwnedRow row)
 {

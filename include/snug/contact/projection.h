@@ -131,7 +131,8 @@ private:
 };
 
 /// Return the projections of the slave nodes that do not hang, in the order of the slave faces and
-/// their nodes. Nodes beyond the edge of the master side are left out.
+/// their nodes. Nodes beyond the edge of the master side are left out. The ranks share the nodes.
+/// Collective.
 template <int dim>
 std::vector<Projection<dim>> project(const mesh::Surface<dim>                 &surface,
                                      const PairFaces                          &sides,
