@@ -10,6 +10,7 @@
 #include <snug/app/state_report.h>
 #include <snug/app/study.h>
 #include <snug/base/errors.h>
+#include <snug/base/gather.h>
 #include <snug/base/petsc_options.h>
 #include <snug/cad/import_cad.h>
 #include <snug/cad/translate.h>
@@ -266,12 +267,7 @@ std::string translate_cad(const Options &options, const RunContext &context)
     throw InputError(
       options.file + " is a CAD file, which has no supports and loads; 'snug --translate " +
       options.file + " > model.prm' prints a parameter file to which they can be added");
-  std::string text;
-  throw_collectively(context.communicator(), [&]() {
-    if (context.rank() == 0)
-      text = cad::translate(options.file);
-  });
-  return text;
+  return made_on_first_rank(context.communicator(), [&]() { return cad::translate(options.file); });
 }
 
 /// Print a parameter file on standard output, which has no log. Collective.
@@ -289,25 +285,32 @@ void run_file(const Options &options, RunContext &context, const int answers)
       print_translation(context, translate_cad(options, context));
       return;
     }
-  scene::SceneSource source = {
-    options.file,
-    scene::read_text(options.file, MPI_COMM_WORLD, scene::TextSource::any),
-    options.sets,
-    options.output,
-    [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); },
-    &context};
-  const bool is_prm = std::filesystem::path(options.file).extension() == ".prm";
-  if (options.translate && (is_prm || scene::is_json(source.text)))
-    {
-      std::ostringstream text;
-      scene::print(scene::read_scene(source), text);
-      print_translation(context, text.str());
-      return;
-    }
-  const auto translation = translate_deck(source, options.translate);
+  const MPI_Comm     communicator = context.communicator();
+  scene::SceneSource source       = {options.file,
+                                     "",
+                                     options.sets,
+                                     options.output,
+                                     [](const std::string &file) { return scene::read_text(file); },
+                                     &context};
+  const auto         is_model     = [&]() {
+    return std::filesystem::path(options.file).extension() == ".prm" || scene::is_json(source.text);
+  };
+  // Decks may be long, so only rank 0 has their texts.
+  const auto translation = made_on_first_rank(communicator, [&]() {
+    source.text = scene::read_text(options.file, scene::TextSource::any);
+    return options.translate && is_model() ? deck::Translation()
+                                           : translate_deck(source, options.translate);
+  });
+  source.text            = broadcast(communicator, source.text);
+  source.file            = broadcast(communicator, source.file);
   if (options.translate)
     {
-      print_translation(context, source.text);
+      std::ostringstream text;
+      if (is_model())
+        scene::print(scene::read_scene(source), text);
+      else
+        text << source.text;
+      print_translation(context, text.str());
       return;
     }
   const scene::Scene scene = scene::read_scene(source);

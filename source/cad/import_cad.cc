@@ -1,12 +1,10 @@
 #include <snug/base/errors.h>
-#include <snug/base/run_context.h>
+#include <snug/base/gather.h>
 #include <snug/cad/faces.h>
 #include <snug/cad/gmsh.h>
 #include <snug/cad/import_cad.h>
 #include <snug/cad/size_field.h>
 #include <snug/mesh_file/import_mesh.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <Standard_Failure.hxx>
 
@@ -212,12 +210,9 @@ import_cad(const geometry::BodyMeshParameters &parameters,
            const std::string                  &stem,
            RunContext                         &context)
 {
-  MeshedPart result;
-  throw_collectively(context.communicator(), [&]() {
-    if (context.rank() == 0)
-      result = guarded(parameters, [&]() { return meshed(parameters, dim, stem, context); });
+  const auto result = made_on_first_rank(context.communicator(), [&]() {
+    return guarded(parameters, [&]() { return meshed(parameters, dim, stem, context); });
   });
-  result = dealii::Utilities::MPI::broadcast(context.communicator(), result, 0);
   return guarded(parameters, [&]() {
     return timed(context, parameters.file, "curved cells", [&]() {
       return dim == 2 ? blocks_of<2>(result, parameters) : blocks_of<3>(result, parameters);

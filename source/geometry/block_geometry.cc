@@ -61,6 +61,7 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
   : mesh(std::move(block_mesh))
   , is_curved(mesh->blocks.size(), false)
   , on_curve(mesh->vertices.size(), false)
+  , bounds(bounds_of(*mesh))
 {
   using Info = dealii::GeometryInfo<dim>;
   // Edges of curved faces are stored separately, because blocks that have only such an edge must
@@ -94,14 +95,6 @@ BlockGeometry<dim>::BlockGeometry(std::shared_ptr<const BlockMesh<dim>> block_me
         if (may_curve(edge))
           is_curved[b] =
             is_curved[b] || curved.count(sorted(edge)) > 0 || mesh->pieces.count(sorted(edge)) > 0;
-      }
-  upper = mesh->vertices.front();
-  lower = upper;
-  for (const Point &vertex : mesh->vertices)
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] = std::min(lower[d], vertex[d]);
-        upper[d] = std::max(upper[d], vertex[d]);
       }
 }
 
@@ -168,7 +161,7 @@ unsigned int BlockGeometry<dim>::known_surface(const unsigned int coarse_cell,
 {
   const auto         index   = multi_index(coarse_cell % cells_per_block(), mesh->cells);
   const unsigned int d       = face / 2;
-  const Vertices    &block   = mesh->blocks[coarse_cell / cells_per_block()];
+  const Vertices    &block   = mesh->blocks[block_of(coarse_cell)];
   const auto         found   = mesh->known.find(sorted(face_of<dim>(block, face)));
   const bool         at_side = index[d] == (face % 2 == 1 ? mesh->cells[d] - 1 : 0);
   return at_side && found != mesh->known.end() ? found->second : this->no_surface;
@@ -181,7 +174,7 @@ dealii::Point<dim> BlockGeometry<dim>::position(const MeshPoint<dim> &point) con
   Point      u;
   for (unsigned int d = 0; d < dim; ++d)
     u[d] = (index[d] + point.unit[d]) / mesh->cells[d];
-  return block_position(point.cell / cells_per_block(), u);
+  return block_position(block_of(point.cell), u);
 }
 
 template <int dim>

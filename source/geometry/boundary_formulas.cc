@@ -92,7 +92,8 @@ public:
         added.push_back(parsed<dim>(name, text, own));
         names.push_back(name);
       }
-    check();
+    if (this->has_all_cells())
+      check();
   }
 
   CoarseMesh coarse_mesh() const override

@@ -11,10 +11,7 @@ std::unique_ptr<BodyGeometry<dim>> make_imported(const BodyMeshParameters &param
   // lines of the entries.
   if (!parameters.imported)
     throw bad_entry("File", parameters.file, "must be read before a mesh is made of it");
-  if constexpr (dim == 2)
-    return std::make_unique<BlockGeometry<2>>(parameters.imported->flat);
-  else
-    return std::make_unique<BlockGeometry<3>>(parameters.imported->solid);
+  return std::make_unique<BlockGeometry<dim>>(parameters.imported->blocks<dim>());
 }
 
 template std::unique_ptr<BodyGeometry<2>> make_imported(const BodyMeshParameters &);

@@ -7,18 +7,32 @@
 
 namespace snug::geometry {
 namespace {
-/// Check that the number of coarse cells is not too large, because every rank holds all coarse
-/// cells.
-void require_coarse(const SectionCheck &section,
-                    const double        cells,
-                    const std::string  &entry,
-                    const std::string  &value)
+/// Maximum number of cells of a body, whose nodes deal.II and p4est number by 32 bits.
+const double most_cells = 1e9;
+
+/// Check that no rank has too many coarse cells. A grid without refinement is distributed to all
+/// ranks at once. All other coarse meshes are on rank 0, and those of refined bodies on every rank.
+void require_coarse(const SectionCheck       &section,
+                    const BodyMeshParameters &mesh,
+                    const double              cells,
+                    const unsigned int        n_ranks,
+                    const std::string        &entry,
+                    const std::string        &value)
 {
-  section.require(cells <= 4e6, entry, value,
-                  "must give at most 4e6 cells; use 'Refinements' for more");
+  const double most_of_rank = 4e6;
+  const bool   is_grid      = mesh.source == Source::box || mesh.source == Source::ring;
+  const bool   refines      = mesh.refinements > 0 || mesh.local_refinements > 0;
+  if (is_grid && !refines)
+    section.require(cells <= std::min(n_ranks * most_of_rank, most_cells), entry, value,
+                    "must give at most 4e6 cells per MPI rank and 1e9 cells");
+  else
+    section.require(cells <= most_of_rank, entry, value,
+                    "must give at most 4e6 cells before refinement");
 }
 
-void check_box(const SectionCheck &section, const BodyMeshParameters &mesh)
+void check_box(const SectionCheck       &section,
+               const BodyMeshParameters &mesh,
+               const unsigned int        n_ranks)
 {
   section.require(!mesh.cells.empty(), "Box cells", "",
                   "must have " + to_text(section.dimension) +
@@ -26,17 +40,19 @@ void check_box(const SectionCheck &section, const BodyMeshParameters &mesh)
   double cells = 1.;
   for (const unsigned int n : mesh.cells)
     cells *= n;
-  require_coarse(section, cells, "Box cells", to_text(mesh.cells));
+  require_coarse(section, mesh, cells, n_ranks, "Box cells", to_text(mesh.cells));
 }
 
-void check_size(const SectionCheck &section, const BodyMeshParameters &mesh, const double cells)
+void check_size(const SectionCheck       &section,
+                const BodyMeshParameters &mesh,
+                const double              cells,
+                const unsigned int        n_ranks)
 {
   const bool file = mesh.source == Source::file || mesh.source == Source::cad;
-  require_coarse(section, cells, file ? "File" : "Cells",
+  require_coarse(section, mesh, cells, n_ranks, file ? "File" : "Cells",
                  file ? mesh.file : to_text(mesh.round_cells));
-  // p4est can number at most 2^31 nodes.
   section.require(mesh.refinements < 30 &&
-                    cells * std::pow(2., section.dimension * mesh.refinements) <= 1e9,
+                    cells * std::pow(2., section.dimension * mesh.refinements) <= most_cells,
                   "Refinements", to_text(mesh.refinements), "must give at most 1e9 cells");
 }
 
@@ -53,14 +69,17 @@ void check_radius(const SectionCheck &section, const BodyMeshParameters &mesh, c
 }
 
 /// Return the minimum x, the radius, over all vertices of the coarse cells (@p all), or over two
-/// vertices of each cell, which include most vertices. Return 0 if the minimum is negative only by
-/// round-off. @throws InputError if a formula is not finite. Points between vertices are checked
-/// when the mesh is made.
+/// vertices of some cells. Return 0 if the minimum is negative only by round-off.
+/// @throws InputError if a formula is not finite. All other points are checked when the mesh is
+/// made.
 template <int dim>
 double least_radius(const BodyGeometry<dim> &geometry, const bool all)
 {
-  double least = 0., largest = 0.;
-  for (unsigned int cell = 0; cell < geometry.n_coarse_cells(); ++cell)
+  const double       some  = 1e5;
+  const double       n     = geometry.n_coarse_cells();
+  const unsigned int step  = all ? 1 : static_cast<unsigned int>(std::ceil(n / some));
+  double             least = 0., largest = 0.;
+  for (unsigned int cell = 0; cell < n; cell += step)
     for (unsigned int v = 0; v < 1 << dim; v += all ? 1 : (1 << dim) - 1)
       {
         dealii::Point<dim> unit;
@@ -75,7 +94,10 @@ double least_radius(const BodyGeometry<dim> &geometry, const bool all)
 }
 
 template <int dim>
-void check_in(const SectionCheck &section, const BodyMeshParameters &mesh, const bool axisymmetric)
+void check_in(const SectionCheck       &section,
+              const BodyMeshParameters &mesh,
+              const bool                axisymmetric,
+              const unsigned int        n_ranks)
 {
   std::unique_ptr<BodyGeometry<dim>> geometry;
   double                             least = 0.;
@@ -91,16 +113,18 @@ void check_in(const SectionCheck &section, const BodyMeshParameters &mesh, const
     {
       throw section.placed(error, "Mesh", to_text(mesh.source));
     }
-  check_size(section, mesh, geometry->n_coarse_cells());
+  check_size(section, mesh, geometry->n_coarse_cells(), n_ranks);
   if (axisymmetric)
     check_radius(section, mesh, least);
 }
 } // namespace
 
-void BodyMeshParameters::check(const SectionCheck &section, const bool axisymmetric) const
+void BodyMeshParameters::check(const SectionCheck &section,
+                               const bool          axisymmetric,
+                               const unsigned int  n_ranks) const
 {
   if (source == Source::box)
-    check_box(section, *this);
+    check_box(section, *this, n_ranks);
   if (source == Source::file && !curved_faces.empty())
     {
       const auto &face = *curved_faces.begin();
@@ -116,8 +140,8 @@ void BodyMeshParameters::check(const SectionCheck &section, const bool axisymmet
     section.require(!is_cad || value.empty(), entry, value,
                     "is for mesh files; the faces of CAD files have names, numbers and their own "
                     "surfaces");
-  section.dimension == 2 ? check_in<2>(section, *this, axisymmetric)
-                         : check_in<3>(section, *this, axisymmetric);
+  section.dimension == 2 ? check_in<2>(section, *this, axisymmetric, n_ranks)
+                         : check_in<3>(section, *this, axisymmetric, n_ranks);
   section.require(local_refinements == 0 || !refine_where.empty(), "Refine where", refine_where,
                   "must be a formula of x, y, z when there are local refinements");
 }

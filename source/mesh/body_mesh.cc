@@ -37,11 +37,14 @@ struct BodyMesh<dim>::Source
   {
     const auto &parameters = tearing ? *tearing : TearingParameters();
     if (degree == 2)
-      elements = QuadraticElements<dim>(forest);
+      local.elements = QuadraticElements<dim>(forest);
     if (!is_distributed)
-      ids.emplace(*forest.triangulation());
+      {
+        ids.emplace(*forest.triangulation());
+        local.geometries = forest.geometries();
+      }
     else
-      parts = distribute(forest, elements, parameters, by_size, distributed);
+      local = distribute(forest, local.elements, parameters, by_size, distributed);
     if (is_distributed)
       nodes.reinit(distributed);
     else
@@ -49,14 +52,13 @@ struct BodyMesh<dim>::Source
     nodes.distribute_dofs(fe);
   }
 
-  QuadraticElements<dim> elements;
+  LocalCells<dim> local; ///< without parts if the cells are not distributed
   // Members are destroyed in reverse order: the nodes before the triangulation and the element.
   dealii::FE_Q<dim>                                      fe;
   dealii::parallel::fullydistributed::Triangulation<dim> distributed;
   bool                                                   is_distributed;
   dealii::DoFHandler<dim>                                nodes;
-  std::vector<unsigned int>                              parts; ///< of the owned cells
-  std::optional<PlacedIds<dim>>                          ids;   ///< if the cells are the forest's
+  std::optional<PlacedIds<dim>>                          ids; ///< if the cells are the forest's
   /// Permutation from tensor-product order to the order of deal.II, which numbers nodes at
   /// vertices, on lines, on faces and inside.
   std::vector<unsigned int> order;
@@ -136,7 +138,7 @@ void BodyMesh<dim>::collect_hanging(const Source &source)
 {
   auto constraints = deal_ii_compat::constraints(source.nodes.locally_owned_dofs(), relevant);
   dealii::DoFTools::make_hanging_node_constraints(source.nodes, constraints);
-  source.elements.constrain(
+  source.local.elements.constrain(
     source.nodes, [&](const auto &cell) { return source.id(cell); }, source.order, constraints);
   constraints.close();
   // is_hanging() requires that the value of other nodes exceeds all indices.
@@ -176,9 +178,9 @@ void BodyMesh<dim>::collect_cells(const Source &source)
       {
         const unsigned int   body = cell->material_id();
         const dealii::CellId id   = source.id(cell->id());
-        mesh_cells.push_back({body, source.is_distributed ? source.parts[mesh_cells.size()] : 0,
-                              geometry(body).region(places.coarse_cell(id)),
-                              source.nodes_of(cell, relevant)});
+        mesh_cells.push_back(
+          {body, source.is_distributed ? source.local.parts[mesh_cells.size()] : 0,
+           geometry(body).region(places.coarse_cell(id)), source.nodes_of(cell, relevant)});
         cell_ids.push_back(id);
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
@@ -300,14 +302,11 @@ BodyMesh<dim>::BodyMesh(const Forest<dim>                      &forest,
                         unsigned int                            degree,
                         const Idealization                     &idealization,
                         const std::optional<TearingParameters> &tearing)
-  : comm(forest.communicator())
-  , fe_degree(degree)
-  , meaning(idealization)
-  , geometries(forest.geometries())
-  , places(forest.places())
+  : comm(forest.communicator()), fe_degree(degree), meaning(idealization), places(forest.places())
 {
   const Source source(forest, degree, cells_per_subdomain(dim, fe_degree, meaning), tearing);
-  n_cells = source.triangulation().n_global_active_cells();
+  geometries = source.local.geometries;
+  n_cells    = source.triangulation().n_global_active_cells();
   number_nodes(source);
   collect_hanging(source);
   // A formula may fail at a position that only one rank has.

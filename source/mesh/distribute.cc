@@ -170,12 +170,13 @@ received_parts(const dealii::parallel::fullydistributed::Triangulation<dim> &res
 } // namespace
 
 template <int dim>
-std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
-                                     const QuadraticElements<dim> &elements,
-                                     const TearingParameters      &parameters,
-                                     const CellsPerSubdomain      &by_size,
-                                     const Refined<dim>           &refined,
-                                     dealii::parallel::fullydistributed::Triangulation<dim> &result)
+std::vector<unsigned int>
+distribute_refined(const CoarseMesh<dim>                                  &coarse,
+                   const QuadraticElements<dim>                           &elements,
+                   const TearingParameters                                &parameters,
+                   const CellsPerSubdomain                                &by_size,
+                   const Refined<dim>                                     &refined,
+                   dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
   const MPI_Comm            communicator = deal_ii_compat::communicator(refined);
   const unsigned int        n_bodies     = coarse.geometries.size();
@@ -213,28 +214,30 @@ std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
 }
 
 template <int dim>
-std::vector<unsigned int> distribute(const Forest<dim>            &forest,
-                                     const QuadraticElements<dim> &elements,
-                                     const TearingParameters      &parameters,
-                                     const CellsPerSubdomain      &by_size,
-                                     dealii::parallel::fullydistributed::Triangulation<dim> &result)
+LocalCells<dim> distribute(const Forest<dim>                                      &forest,
+                           const QuadraticElements<dim>                           &elements,
+                           const TearingParameters                                &parameters,
+                           const CellsPerSubdomain                                &by_size,
+                           dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
   if (forest.triangulation())
-    return distribute(forest.coarse(), elements, parameters, by_size, *forest.triangulation(),
-                      result);
+    return {distribute_refined(forest.coarse(), elements, parameters, by_size,
+                               *forest.triangulation(), result),
+            elements, forest.geometries()};
   if (forest.are_grids() && choose(partition_table(), parameters.method).make(true))
-    return distribute_grids(*forest.geometries(), parameters, by_size, result);
-  return distribute(forest.coarse(), elements, parameters, by_size, result);
+    return {distribute_grids(*forest.geometries(), parameters, by_size, result), elements,
+            forest.geometries()};
+  return distribute_coarse(forest, elements, parameters, by_size, result);
 }
 
-#define SNUG_INSTANTIATE(dim)                                                             \
-  template std::vector<unsigned int> distribute(                                          \
-    const CoarseMesh<dim> &, const QuadraticElements<dim> &, const TearingParameters &,   \
-    const CellsPerSubdomain &, const dealii::parallel::distributed::Triangulation<dim> &, \
-    dealii::parallel::fullydistributed::Triangulation<dim> &);                            \
-  template std::vector<unsigned int> distribute(                                          \
-    const Forest<dim> &, const QuadraticElements<dim> &, const TearingParameters &,       \
-    const CellsPerSubdomain &, dealii::parallel::fullydistributed::Triangulation<dim> &);
+#define SNUG_INSTANTIATE(dim)                                                               \
+  template std::vector<unsigned int> distribute_refined(                                    \
+    const CoarseMesh<dim> &, const QuadraticElements<dim> &, const TearingParameters &,     \
+    const CellsPerSubdomain &, const dealii::parallel::distributed::Triangulation<dim> &,   \
+    dealii::parallel::fullydistributed::Triangulation<dim> &);                              \
+  template LocalCells<dim> distribute(const Forest<dim> &, const QuadraticElements<dim> &,  \
+                                      const TearingParameters &, const CellsPerSubdomain &, \
+                                      dealii::parallel::fullydistributed::Triangulation<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)
 #undef SNUG_INSTANTIATE

@@ -1,6 +1,8 @@
 #include <snug/base/deal_ii_compat.h>
 #include <snug/base/gather.h>
+#include <snug/base/run_context.h>
 #include <snug/geometry/cell_numbering.h>
+#include <snug/geometry/imported_mesh.h>
 #include <snug/mesh/cell_shape.h>
 #include <snug/mesh/coarse_description.h>
 #include <snug/mesh/distribute.h>
@@ -8,7 +10,12 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/container/small_vector.hpp>
+#include <boost/serialization/utility.hpp>
+
 #include <algorithm>
+#include <optional>
+#include <unordered_map>
 
 namespace snug::mesh {
 namespace {
@@ -69,173 +76,227 @@ struct Neighbourhood
   }
 };
 
-/// Return the first of @p n cells that a rank holds before the parts are decided.
-unsigned int first_of_rank(const unsigned long n, const unsigned int rank, const MPI_Comm comm)
-{
-  return static_cast<unsigned int>(n * rank / dealii::Utilities::MPI::n_mpi_processes(comm));
-}
-
-/// Range of cells of a body that a rank holds before the parts are decided.
-struct Run
-{
-  unsigned int begin, end;
-};
-
+/// Return the shapes of the cells of a body.
 template <int dim>
-Run run_of(const CoarseMesh<dim> &coarse, const unsigned int body, const MPI_Comm communicator)
+std::vector<CellShape<dim>> shapes_of(const CoarseMesh<dim> &coarse, const unsigned int body)
 {
-  const unsigned int  rank  = dealii::Utilities::MPI::this_mpi_process(communicator);
-  const unsigned int  begin = coarse.first_cell[body];
-  const unsigned long n     = coarse.first_cell[body + 1] - begin;
-  return {begin + first_of_rank(n, rank, communicator),
-          begin + first_of_rank(n, rank + 1, communicator)};
-}
-
-template <int dim>
-std::vector<CellShape<dim>>
-shapes_of(const CoarseMesh<dim> &coarse, const unsigned int body, const MPI_Comm communicator)
-{
-  const Run                   run = run_of(coarse, body, communicator);
   std::vector<CellShape<dim>> shapes;
-  for (unsigned int cell = run.begin; cell < run.end; ++cell)
+  for (unsigned int cell = 0; cell < coarse.first_cell[body + 1] - coarse.first_cell[body]; ++cell)
     shapes.emplace_back([&](const dealii::Point<dim> &unit) {
-      return coarse.geometries[body]->position({cell - coarse.first_cell[body], unit});
+      return coarse.geometries[body]->position({cell, unit});
     });
   return shapes;
 }
 
-/// Return the set of the cells of a body in the run of this rank. Collective.
+/// Add the cells of a body to the set of the body.
 template <int dim>
-CellSet<dim> cell_set(const CoarseMesh<dim>             &coarse,
-                      const QuadraticElements<dim>      &elements,
-                      const unsigned int                 body,
-                      const Neighbourhood<dim>          &neighbourhood,
-                      const std::vector<CellShape<dim>> &shapes,
-                      const MPI_Comm                     communicator)
+void add_cells(const CoarseMesh<dim>             &coarse,
+               const QuadraticElements<dim>      &elements,
+               const unsigned int                 body,
+               const Neighbourhood<dim>          &neighbourhood,
+               const std::vector<CellShape<dim>> &shapes,
+               CellSet<dim>                      &set)
 {
-  const auto        &geometry = *coarse.geometries[body];
-  const unsigned int begin    = coarse.first_cell[body];
-  const Run          run      = run_of(coarse, body, communicator);
-  CellSet<dim>       set;
-  set.communicator = communicator;
-  set.n_global     = coarse.first_cell[body + 1] - begin;
-  set.n_slender    = count_slender(shapes, communicator);
-  set.size         = geometry.extent();
-  set.layered      = geometry.grid() != nullptr;
-  for (unsigned int cell = run.begin; cell < run.end; ++cell)
+  const unsigned int begin = coarse.first_cell[body], end = coarse.first_cell[body + 1];
+  for (unsigned int cell = begin; cell < end; ++cell)
     {
       set.add(elements.place(dealii::CellId(cell, {})), [&](const dealii::Point<dim> &unit) {
-        return geometry.logical({cell - begin, unit});
+        return coarse.geometries[body]->logical({cell - begin, unit});
       });
       set.numbers.push_back(cell);
       set.keys.push_back({{cell, 0}});
     }
   for (std::size_t p = 0; p < neighbourhood.pairs.size(); ++p)
-    if (const auto &pair = neighbourhood.pairs[p]; run.begin <= pair[0] && pair[0] < run.end)
+    if (const auto &pair = neighbourhood.pairs[p]; begin <= pair[0] && pair[0] < end)
       {
         set.neighbours.push_back(pair);
-        set.areas.push_back(shapes[pair[0] - run.begin].section(neighbourhood.axes[p]));
+        set.areas.push_back(shapes[pair[0] - begin].section(neighbourhood.axes[p]));
       }
-  return set;
 }
 
-/// Parts and ranks of all cells, equal on every rank.
-struct Places
+/// The coarse mesh as rank 0 holds it, with the part and the rank of each cell.
+template <int dim>
+struct WholeMesh
 {
+  const CoarseMesh<dim>    &coarse;
+  const Neighbourhood<dim>  neighbourhood;
   std::vector<unsigned int> part, rank;
+
+  explicit WholeMesh(const CoarseMesh<dim> &coarse) : coarse(coarse), neighbourhood(coarse) {}
 };
 
+/// Decide the parts and the ranks of all cells. On other ranks than 0 @p whole is null. Collective.
 template <int dim>
-Places decide_places(const CoarseMesh<dim>        &coarse,
-                     const QuadraticElements<dim> &elements,
-                     const Neighbourhood<dim>     &neighbourhood,
-                     const TearingParameters      &parameters,
-                     const CellsPerSubdomain      &by_size,
-                     const MPI_Comm                communicator)
+void decide_places(const Forest<dim>            &forest,
+                   WholeMesh<dim>               *whole,
+                   const QuadraticElements<dim> &elements,
+                   const TearingParameters      &parameters,
+                   const CellsPerSubdomain      &by_size)
 {
-  std::vector<CellSet<dim>> sets;
-  const auto                shapes =
-    shapes_of_bodies<dim>(coarse.geometries.size(), communicator, [&](const unsigned int body) {
-      return shapes_of(coarse, body, communicator);
-    });
-  for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
-    sets.push_back(cell_set(coarse, elements, body, neighbourhood, shapes[body], communicator));
+  const MPI_Comm     communicator = forest.communicator();
+  const auto        &geometries   = *forest.geometries();
+  const unsigned int n_bodies     = geometries.size();
+  const auto shapes = shapes_of_bodies<dim>(n_bodies, communicator, [&](const unsigned int body) {
+    return whole ? shapes_of(whole->coarse, body) : std::vector<CellShape<dim>>();
+  });
+  std::vector<CellSet<dim>> sets(n_bodies);
+  for (unsigned int body = 0; body < n_bodies; ++body)
+    {
+      auto &set        = sets[body];
+      set.communicator = communicator;
+      set.n_global     = static_cast<unsigned long>(geometries[body]->n_coarse_cells());
+      set.n_slender    = count_slender(shapes[body], communicator);
+      set.size         = geometries[body]->extent();
+      set.layered      = geometries[body]->grid() != nullptr;
+      if (whole)
+        add_cells(whole->coarse, elements, body, whole->neighbourhood, shapes[body], set);
+    }
   const Parts parts = decide_parts(sets, parameters, by_size);
   const auto  ranks =
     ranks_of_parts(parts.cells, dealii::Utilities::MPI::n_mpi_processes(communicator));
-  Places places;
-  for (unsigned int body = 0; body < sets.size(); ++body)
-    for (const auto &of_rank : all_gather(communicator, parts.of_body[body].part))
-      for (const unsigned int part : of_rank)
+  if (whole)
+    for (unsigned int body = 0; body < n_bodies; ++body)
+      for (const unsigned int part : parts.of_body[body].part)
         {
-          places.part.push_back(part);
-          places.rank.push_back(ranks[body][part]);
+          whole->part.push_back(part);
+          whole->rank.push_back(ranks[body][part]);
         }
-  return places;
 }
 
-/// Return the cells of @p rank and the cells that share a vertex with a cell of @p rank, which
-/// deal.II needs as ghost cells.
+/// Return the cells of each rank and the cells that share a vertex with one of them, which deal.II
+/// needs as ghost cells.
 template <int dim>
-std::vector<unsigned int>
-relevant_cells(const CoarseMesh<dim> &coarse, const Places &places, const unsigned int rank)
+std::vector<std::vector<unsigned int>> relevant_cells(const WholeMesh<dim> &whole,
+                                                      const unsigned int    n_ranks)
 {
-  std::vector<bool> at_owned(coarse.vertices.size(), false);
+  const auto &coarse = whole.coarse;
+  using Ranks        = boost::container::small_vector<unsigned int, 2>;
+  std::vector<Ranks> at_vertex(coarse.vertices.size());
+  const auto         add = [](Ranks &ranks, const unsigned int rank) {
+    if (std::find(ranks.begin(), ranks.end(), rank) == ranks.end())
+      ranks.push_back(rank);
+  };
   for (unsigned int cell = 0; cell < coarse.cells.size(); ++cell)
-    if (places.rank[cell] == rank)
+    for (const unsigned int vertex : coarse.cells[cell].vertices)
+      add(at_vertex[vertex], whole.rank[cell]);
+  std::vector<std::vector<unsigned int>> result(n_ranks);
+  for (unsigned int cell = 0; cell < coarse.cells.size(); ++cell)
+    {
+      Ranks ranks;
       for (const unsigned int vertex : coarse.cells[cell].vertices)
-        at_owned[vertex] = true;
-  std::vector<unsigned int> result;
-  for (unsigned int cell = 0; cell < coarse.cells.size(); ++cell)
-    if (std::any_of(coarse.cells[cell].vertices.begin(), coarse.cells[cell].vertices.end(),
-                    [&](const unsigned int vertex) { return at_owned[vertex]; }))
-      result.push_back(cell);
+        for (const unsigned int rank : at_vertex[vertex])
+          add(ranks, rank);
+      for (const unsigned int rank : ranks)
+        result[rank].push_back(cell);
+    }
   return result;
+}
+
+/// What a rank gets from rank 0.
+template <int dim>
+struct Share
+{
+  dealii::TriangulationDescription::Description<dim, dim> description;
+  std::vector<unsigned int>                               parts; ///< of the cells of the rank
+  QuadraticElements<dim>                                  elements;
+  /// of the bodies whose cells other ranks lack
+  std::vector<geometry::BlockMesh<dim>> excerpts;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & description & parts & elements & excerpts;
+  }
+};
+
+/// Add @p cells, which the rank needs, to the share of the rank.
+template <int dim>
+void describe(const WholeMesh<dim>            &whole,
+              const std::vector<unsigned int> &cells,
+              const unsigned int               rank,
+              Share<dim>                      &share)
+{
+  auto                                          &description = share.description;
+  std::unordered_map<unsigned int, unsigned int> number;
+  for (const unsigned int cell : cells)
+    {
+      const auto &coarse = whole.coarse.cells[cell];
+      add_cell(cell, coarse.material_id, whole.rank[cell], description);
+      if (whole.rank[cell] == rank)
+        share.parts.push_back(whole.part[cell]);
+      description.coarse_cells.back().vertices = coarse.vertices;
+      for (unsigned int &vertex : description.coarse_cells.back().vertices)
+        {
+          const auto [found, is_new] =
+            number.emplace(vertex, description.coarse_cell_vertices.size());
+          if (is_new)
+            description.coarse_cell_vertices.push_back(whole.coarse.vertices[vertex]);
+          vertex = found->second;
+        }
+      const auto &boundaries = whole.neighbourhood.boundaries[cell];
+      description.cell_infos[0].back().boundary_ids.assign(boundaries.begin(), boundaries.end());
+    }
+}
+
+/// Return the excerpt of a body with the given @p cells of all bodies. The mesh of a file has one
+/// cell per block.
+template <int dim>
+geometry::BlockMesh<dim> excerpt_of(const Forest<dim>               &forest,
+                                    const unsigned int               body,
+                                    const std::vector<unsigned int> &cells)
+{
+  const auto               &first = forest.coarse().first_cell;
+  std::vector<unsigned int> blocks;
+  for (auto cell = std::lower_bound(cells.begin(), cells.end(), first[body]);
+       cell != cells.end() && *cell < first[body + 1]; ++cell)
+    blocks.push_back(*cell - first[body]);
+  return geometry::excerpt(*forest.bodies()[body].imported->template blocks<dim>(), blocks);
 }
 } // namespace
 
 template <int dim>
-std::vector<unsigned int> distribute(const CoarseMesh<dim>        &coarse,
-                                     const QuadraticElements<dim> &elements,
-                                     const TearingParameters      &parameters,
-                                     const CellsPerSubdomain      &by_size,
-                                     dealii::parallel::fullydistributed::Triangulation<dim> &result)
+LocalCells<dim> distribute_coarse(const Forest<dim>            &forest,
+                                  const QuadraticElements<dim> &elements,
+                                  const TearingParameters      &parameters,
+                                  const CellsPerSubdomain      &by_size,
+                                  dealii::parallel::fullydistributed::Triangulation<dim> &result)
 {
-  const MPI_Comm           communicator = deal_ii_compat::communicator(result);
-  const Neighbourhood<dim> neighbourhood(coarse);
-  const Places             places =
-    decide_places(coarse, elements, neighbourhood, parameters, by_size, communicator);
-  auto                      description = coarse_description(result);
-  const unsigned int        none        = static_cast<unsigned int>(-1);
-  std::vector<unsigned int> number(coarse.vertices.size(), none);
-  for (const unsigned int cell :
-       relevant_cells(coarse, places, dealii::Utilities::MPI::this_mpi_process(communicator)))
+  const MPI_Comm                communicator = forest.communicator();
+  const unsigned int            my_rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+  std::optional<WholeMesh<dim>> whole;
+  // A formula of a boundary may fail.
+  throw_collectively(communicator, [&]() {
+    if (my_rank == 0)
+      whole.emplace(forest.coarse());
+  });
+  decide_places(forest, whole ? &*whole : nullptr, elements, parameters, by_size);
+  std::vector<std::vector<unsigned int>> cells;
+  if (whole)
+    cells = relevant_cells(*whole, dealii::Utilities::MPI::n_mpi_processes(communicator));
+  auto share             = scatter<Share<dim>>(communicator, [&](const unsigned int rank) {
+    Share<dim> of_rank{coarse_description(result), {}, elements.of_cells(cells[rank]), {}};
+    describe(*whole, cells[rank], rank, of_rank);
+    if (rank != 0)
+      for (const unsigned int body : forest.bodies_of_rank_0())
+        of_rank.excerpts.push_back(excerpt_of(forest, body, cells[rank]));
+    return of_rank;
+  });
+  share.description.comm = communicator;
+  result.create_triangulation(share.description);
+  auto geometries = std::make_shared<Geometries<dim>>(*forest.geometries());
+  for (unsigned int i = 0; i < share.excerpts.size(); ++i)
     {
-      add_cell(cell, coarse.cells[cell].material_id, places.rank[cell], description);
-      description.coarse_cells.back().vertices = coarse.cells[cell].vertices;
-      for (unsigned int &vertex : description.coarse_cells.back().vertices)
-        {
-          if (number[vertex] == none)
-            {
-              number[vertex] = description.coarse_cell_vertices.size();
-              description.coarse_cell_vertices.push_back(coarse.vertices[vertex]);
-            }
-          vertex = number[vertex];
-        }
-      const auto &boundaries = neighbourhood.boundaries[cell];
-      description.cell_infos[0].back().boundary_ids.assign(boundaries.begin(), boundaries.end());
+      const unsigned int body       = forest.bodies_of_rank_0()[i];
+      auto               parameters = forest.bodies()[body];
+      parameters.imported = parameters.imported->with_blocks(std::move(share.excerpts[i]));
+      (*geometries)[body] = geometry::make_geometry<dim>(parameters);
     }
-  result.create_triangulation(description);
-  std::vector<unsigned int> parts;
-  for (const auto &cell : result.active_cell_iterators())
-    if (cell->is_locally_owned())
-      parts.push_back(places.part[cell->id().get_coarse_cell_id()]);
-  return parts;
+  return {std::move(share.parts), std::move(share.elements), geometries};
 }
 
-#define SNUG_INSTANTIATE(dim)                                                           \
-  template std::vector<unsigned int> distribute(                                        \
-    const CoarseMesh<dim> &, const QuadraticElements<dim> &, const TearingParameters &, \
+#define SNUG_INSTANTIATE(dim)                                                       \
+  template LocalCells<dim> distribute_coarse(                                       \
+    const Forest<dim> &, const QuadraticElements<dim> &, const TearingParameters &, \
     const CellsPerSubdomain &, dealii::parallel::fullydistributed::Triangulation<dim> &);
 SNUG_INSTANTIATE(2)
 SNUG_INSTANTIATE(3)

@@ -1,9 +1,11 @@
 #include <snug/base/deal_ii_compat.h>
 #include <snug/base/errors.h>
+#include <snug/base/gather.h>
 #include <snug/base/narrow.h>
 #include <snug/base/run_context.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/formula.h>
+#include <snug/geometry/imported_mesh.h>
 #include <snug/mesh/forest.h>
 
 #include <deal.II/base/mpi.h>
@@ -42,16 +44,6 @@ CoarseMesh<dim>::CoarseMesh(const Geometries<dim> &the_geometries) : geometries(
 
 namespace {
 template <int dim>
-std::shared_ptr<const Geometries<dim>>
-make_geometries(const std::vector<geometry::BodyMeshParameters> &bodies)
-{
-  auto geometries = std::make_shared<Geometries<dim>>();
-  for (const auto &body : bodies)
-    geometries->push_back(geometry::make_geometry<dim>(body));
-  return geometries;
-}
-
-template <int dim>
 geometry::CoarseCells<dim> places_in(const Geometries<dim> &geometries)
 {
   std::vector<unsigned int> first_cell = {0};
@@ -80,9 +72,39 @@ const CoarseMesh<dim> &Forest<dim>::coarse() const
   return *coarse_mesh;
 }
 
+/// Make the geometries and find the bodies whose cells some rank lacks. Collective.
+template <int dim>
+void Forest<dim>::make_geometries()
+{
+  auto                       made = std::make_shared<Geometries<dim>>();
+  std::vector<unsigned char> lacks;
+  // Boundary formulas are checked where all cells are.
+  throw_collectively(comm, [&]() {
+    for (const auto &body : parameters)
+      made->push_back(geometry::make_geometry<dim>(body));
+  });
+  for (const auto &geometry : *made)
+    lacks.push_back(geometry->has_all_cells() ? 0 : 1);
+  MPI_Allreduce(MPI_IN_PLACE, lacks.data(), narrow<int>(lacks.size()), MPI_UNSIGNED_CHAR, MPI_MAX,
+                comm);
+  lacking.clear();
+  for (unsigned int body = 0; body < lacks.size(); ++body)
+    if (lacks[body] > 0)
+      lacking.push_back(body);
+  shapes = std::move(made);
+}
+
+/// Create the triangulation of p4est, which needs the coarse cells of all bodies on every rank.
 template <int dim>
 void Forest<dim>::create_triangulation()
 {
+  for (const unsigned int body : lacking)
+    {
+      auto &imported = parameters[body].imported;
+      imported       = imported->with_blocks(broadcast(comm, *imported->template blocks<dim>()));
+    }
+  if (!lacking.empty())
+    make_geometries();
   const auto &coarse_mesh = coarse();
   refined                 = std::make_unique<Triangulation>(comm);
   refined->create_triangulation(coarse_mesh.vertices, coarse_mesh.cells, dealii::SubCellData());
@@ -142,11 +164,10 @@ bool Forest<dim>::refine_step(const Wanted &wanted)
 
 template <int dim>
 Forest<dim>::Forest(MPI_Comm communicator, const std::vector<geometry::BodyMeshParameters> &bodies)
-  : comm(communicator)
-  , parameters(bodies)
-  , shapes(make_geometries<dim>(bodies))
-  , cell_places(places_in(*shapes))
+  : comm(communicator), parameters(bodies)
 {
+  make_geometries();
+  cell_places                                                       = places_in(*shapes);
   unsigned int                                         global_steps = 0, local_steps = 0;
   std::vector<std::unique_ptr<geometry::Formula<dim>>> formulas;
   for (const auto &body : bodies)

@@ -2,6 +2,8 @@
 #include <snug/geometry/cell_numbering.h>
 #include <snug/mesh/quadratic_elements.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -127,89 +129,107 @@ std::vector<QuadraticWeights> quadratic_weights(const geometry::ElementPart<dim>
 template <int dim>
 QuadraticElements<dim>::QuadraticElements(const Forest<dim> &forest)
 {
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(forest.communicator()) == 0;
   // The cells of grids are no parts of elements.
-  if (forest.are_grids())
+  if (forest.are_grids() || (!is_first && !forest.triangulation()))
     return;
   const auto  &coarse     = forest.coarse();
   unsigned int n_elements = 0;
   for (unsigned int body = 0; body < coarse.geometries.size(); ++body)
     {
-      const unsigned int first = n_elements;
-      for (unsigned int cell = coarse.first_cell[body]; cell < coarse.first_cell[body + 1]; ++cell)
-        {
-          parts.push_back(coarse.geometries[body]->element_part(cell - coarse.first_cell[body]));
-          if (auto &element = parts.back().element; element != no_element)
-            n_elements = std::max(n_elements, (element += first) + 1);
-        }
+      const unsigned int first = n_elements, begin = coarse.first_cell[body];
+      for (unsigned int cell = begin; cell < coarse.first_cell[body + 1]; ++cell)
+        if (auto part = coarse.geometries[body]->element_part(cell - begin);
+            part.element != no_element)
+          {
+            part.element += first;
+            n_elements = std::max(n_elements, part.element + 1);
+            cells.push_back({cell, part, false, 0});
+          }
     }
-  if (n_elements == 0)
-    {
-      parts.clear();
-      return;
-    }
-  for (const auto &cell : coarse.cells)
-    vertices.push_back(cell.vertices);
-  refined.assign(n_elements, 0);
-  if (forest.triangulation())
-    find_refined(forest);
-  mark(forest);
+  if (forest.triangulation() && n_elements > 0)
+    find_refined(forest, n_elements);
+  mark(coarse, n_elements);
+}
+
+template <int dim>
+const typename QuadraticElements<dim>::Cell *
+QuadraticElements<dim>::find(const unsigned int coarse) const
+{
+  const auto found =
+    std::lower_bound(cells.begin(), cells.end(), coarse,
+                     [](const Cell &cell, unsigned int c) { return cell.coarse < c; });
+  return found != cells.end() && found->coarse == coarse ? &*found : nullptr;
+}
+
+template <int dim>
+QuadraticElements<dim>
+QuadraticElements<dim>::of_cells(const std::vector<unsigned int> &coarse) const
+{
+  QuadraticElements result;
+  for (const unsigned int c : coarse)
+    if (const Cell *cell = find(c))
+      result.cells.push_back(*cell);
+  return result;
 }
 
 /// A tetrahedron has 1.4 unknowns per component, a prism 4, a triangle 2. A cell of degree 2 has 8
 /// in 3D and 4 in 2D. The power of the number of corners approximates all these ratios, and is 1
 /// for hexahedra and quadrilaterals.
 template <int dim>
-CellPlace QuadraticElements<dim>::place(const dealii::CellId &cell) const
+CellPlace QuadraticElements<dim>::place(const dealii::CellId &id) const
 {
-  const unsigned int coarse = cell.get_coarse_cell_id();
-  if (parts.empty() || parts[coarse].element == no_element || is_refined(coarse))
+  const Cell *cell = find(id.get_coarse_cell_id());
+  if (cell == nullptr || cell->is_refined)
     return {no_element, 1.};
-  const double n = parts[coarse].n_corners;
-  return {parts[coarse].element, std::pow(n / (1u << dim), 2.5) / n};
+  const double n = cell->part.n_corners;
+  return {cell->part.element, std::pow(n / (1u << dim), 2.5) / n};
 }
 
 template <int dim>
-void QuadraticElements<dim>::find_refined(const Forest<dim> &forest)
+void QuadraticElements<dim>::find_refined(const Forest<dim> &forest, const unsigned int n_elements)
 {
-  const PlacedIds<dim> ids(*forest.triangulation());
+  const PlacedIds<dim>       ids(*forest.triangulation());
+  std::vector<unsigned char> refined(n_elements, 0);
   for (const auto &cell : forest.triangulation()->active_cell_iterators())
     if (cell->is_locally_owned() && cell->level() > 0)
-      {
-        const auto &part = parts[ids.of(cell->id()).get_coarse_cell_id()];
-        if (part.element != no_element)
-          refined[part.element] = 1;
-      }
+      if (const Cell *found = find(ids.of(cell->id()).get_coarse_cell_id()))
+        refined[found->part.element] = 1;
   MPI_Allreduce(MPI_IN_PLACE, refined.data(), narrow<int>(refined.size()), MPI_UNSIGNED_CHAR,
                 MPI_MAX, forest.communicator());
+  for (auto &cell : cells)
+    cell.is_refined = refined[cell.part.element] > 0;
 }
 
 /// Mark the vertices of constrained elements. A node of a cell is constrained if the vertex in the
 /// middle of its edge, face or element is marked, so that it does not matter whether the cell
 /// itself belongs to a constrained element.
 template <int dim>
-void QuadraticElements<dim>::mark(const Forest<dim> &forest)
+void QuadraticElements<dim>::mark(const CoarseMesh<dim> &coarse, const unsigned int n_elements)
 {
-  const unsigned int n_vertices = forest.coarse().vertices.size();
-  std::vector<bool>  is_at_refined(n_vertices, false), is_free(refined.size(), false);
-  const auto         for_edges = [&](const auto &action) {
-    for (unsigned int cell = 0; cell < parts.size(); ++cell)
-      if (parts[cell].element != no_element)
-        for (unsigned int d = 0; d < dim; ++d)
-          action(cell, vertices[cell][1u << d]);
+  std::vector<bool> is_at_refined(coarse.vertices.size(), false), is_free(n_elements, false),
+    is_hanging(coarse.vertices.size(), false);
+  const auto for_edges = [&](const auto &action) {
+    for (const auto &cell : cells)
+      for (unsigned int d = 0; d < dim; ++d)
+        action(cell, coarse.cells[cell.coarse].vertices[1u << d]);
   };
-  for_edges([&](const unsigned int cell, const unsigned int vertex) {
-    if (is_refined(cell))
+  for_edges([&](const Cell &cell, const unsigned int vertex) {
+    if (cell.is_refined)
       is_at_refined[vertex] = true;
   });
-  for_edges([&](const unsigned int cell, const unsigned int vertex) {
+  for_edges([&](const Cell &cell, const unsigned int vertex) {
     if (is_at_refined[vertex])
-      is_free[parts[cell].element] = true;
+      is_free[cell.part.element] = true;
   });
-  is_hanging.assign(n_vertices, false);
-  for (unsigned int cell = 0; cell < parts.size(); ++cell)
-    if (parts[cell].element != no_element && !is_free[parts[cell].element])
-      for (const unsigned int vertex : vertices[cell])
+  for (const auto &cell : cells)
+    if (!is_free[cell.part.element])
+      for (const unsigned int vertex : coarse.cells[cell.coarse].vertices)
         is_hanging[vertex] = true;
+  for (auto &cell : cells)
+    for (unsigned int v = 0; v < 1u << dim; ++v)
+      if (is_hanging[coarse.cells[cell.coarse].vertices[v]])
+        cell.hanging |= 1u << v;
 }
 
 template <int dim>
@@ -218,7 +238,7 @@ void QuadraticElements<dim>::constrain(const dealii::DoFHandler<dim>     &nodes,
                                        const std::vector<unsigned int>   &order,
                                        dealii::AffineConstraints<double> &constraints) const
 {
-  if (parts.empty())
+  if (cells.empty())
     return;
   using Index = dealii::types::global_dof_index;
   std::map<std::pair<unsigned int, unsigned int>, std::vector<Weights>> of_corner;
@@ -229,37 +249,35 @@ void QuadraticElements<dim>::constrain(const dealii::DoFHandler<dim>     &nodes,
     for (const auto &cell : nodes.active_cell_iterators())
       if (!cell->is_artificial() && cell->level() == 0)
         {
-          const unsigned int coarse = placed_id(cell->id()).get_coarse_cell_id();
-          const auto        &part   = parts[coarse];
-          if (part.element == no_element || is_refined(coarse))
+          const Cell *coarse = find(placed_id(cell->id()).get_coarse_cell_id());
+          if (coarse == nullptr || coarse->is_refined)
             continue;
-          auto &weights = of_corner[{part.n_corners, part.corner}];
+          auto &weights = of_corner[{coarse->part.n_corners, coarse->part.corner}];
           if (weights.empty())
-            weights = quadratic_weights(part);
+            weights = quadratic_weights(coarse->part);
           cell->get_dof_indices(indices);
           for (unsigned int node = 0; node < order.size(); ++node)
-            action(coarse, node, weights[node], indices[order[node]]);
+            action(*coarse, node, weights[node], indices[order[node]]);
         }
   };
-  for_nodes(
-    [&](const unsigned int coarse, unsigned int, const Weights &weights, const Index index) {
-      if (weights.size() == 1)
-        masters[{parts[coarse].element, weights[0].first}] = index;
-    });
-  for_nodes([&](const unsigned int coarse, const unsigned int node, const Weights &weights,
-                const Index index) {
-    if (weights.size() == 1 || !is_hanging[vertices[coarse][middle_vertex<dim>(node)]] ||
-        constraints.is_constrained(index) || !constraints.can_store_line(index))
-      return;
-    std::vector<std::pair<Index, double>> entries;
-    for (const auto &[key, weight] : weights)
-      if (const auto found = masters.find({parts[coarse].element, key}); found != masters.end())
-        entries.emplace_back(found->second, weight);
-      else
-        return;
-    constraints.add_line(index);
-    constraints.add_entries(index, entries);
+  for_nodes([&](const Cell &coarse, unsigned int, const Weights &weights, const Index index) {
+    if (weights.size() == 1)
+      masters[{coarse.part.element, weights[0].first}] = index;
   });
+  for_nodes(
+    [&](const Cell &coarse, const unsigned int node, const Weights &weights, const Index index) {
+      if (weights.size() == 1 || (coarse.hanging >> middle_vertex<dim>(node) & 1u) == 0 ||
+          constraints.is_constrained(index) || !constraints.can_store_line(index))
+        return;
+      std::vector<std::pair<Index, double>> entries;
+      for (const auto &[key, weight] : weights)
+        if (const auto found = masters.find({coarse.part.element, key}); found != masters.end())
+          entries.emplace_back(found->second, weight);
+        else
+          return;
+      constraints.add_line(index);
+      constraints.add_entries(index, entries);
+    });
 }
 
 template std::vector<QuadraticWeights> quadratic_weights(const geometry::ElementPart<2> &);

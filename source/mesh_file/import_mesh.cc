@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/geometry/cell_numbering.h>
 #include <snug/geometry/entry_values.h>
 #include <snug/mesh_file/curved_blocks.h>
@@ -255,15 +256,12 @@ private:
   }
 };
 
-/// Set the blocks of the dimension of @p mesh.
-void set_blocks(geometry::ImportedMesh &mesh, std::shared_ptr<const geometry::BlockMesh<2>> blocks)
+/// Return a mesh without cells.
+std::shared_ptr<const geometry::ImportedMesh> without_cells(const geometry::ImportedMesh &mesh)
 {
-  mesh.flat = std::move(blocks);
-}
-
-void set_blocks(geometry::ImportedMesh &mesh, std::shared_ptr<const geometry::BlockMesh<3>> blocks)
-{
-  mesh.solid = std::move(blocks);
+  if (mesh.flat)
+    return mesh.with_blocks(geometry::excerpt(*mesh.flat, {}));
+  return mesh.with_blocks(geometry::excerpt(*mesh.solid, {}));
 }
 
 /// Run @p work, and complete the message of an error of the file by the entry of the file.
@@ -300,9 +298,12 @@ std::shared_ptr<geometry::ImportedMesh> import_mesh(const MeshFile              
   return with_entry(parameters, [&]() {
     auto          result = std::make_shared<geometry::ImportedMesh>();
     Importer<dim> importer(file, parameters, exact);
-    set_blocks(*result, std::make_shared<const geometry::BlockMesh<dim>>(importer.blocks()));
-    result->notes    = importer.notes;
-    result->warnings = importer.warnings;
+    auto          mesh    = importer.blocks();
+    result->has_triangles = std::any_of(mesh.parts.begin(), mesh.parts.end(),
+                                        [](const auto &part) { return part.has_triangles(); });
+    result->blocks<dim>() = std::make_shared<const geometry::BlockMesh<dim>>(std::move(mesh));
+    result->notes         = importer.notes;
+    result->warnings      = importer.warnings;
     return result;
   });
 }
@@ -317,6 +318,20 @@ import_mesh(const std::string                  &text,
     dim == 2 ? import_mesh<2>(file, parameters) : import_mesh<3>(file, parameters);
   result->text_hash = text_hash(text);
   return result;
+}
+
+std::shared_ptr<const geometry::ImportedMesh>
+import_mesh(const MPI_Comm                      communicator,
+            const std::function<std::string()> &text,
+            const geometry::BodyMeshParameters &parameters,
+            const unsigned int                  dim)
+{
+  std::shared_ptr<const geometry::ImportedMesh> whole;
+  const auto                                    empty = made_on_first_rank(communicator, [&]() {
+    whole = import_mesh(text(), parameters, dim);
+    return *without_cells(*whole);
+  });
+  return whole ? whole : std::make_shared<const geometry::ImportedMesh>(empty);
 }
 
 template std::shared_ptr<geometry::ImportedMesh>

@@ -198,9 +198,12 @@ void Body::declare(Entries &entries)
     "temperature. An empty value means no thermal strain.");
 }
 
-void check_body(const Scene &scene, const SectionCheck &section, const Body &body)
+void check_body(const Scene        &scene,
+                const SectionCheck &section,
+                const Body         &body,
+                const unsigned int  n_ranks)
 {
-  body.mesh.check(section, idealization(scene).is_axisymmetric());
+  body.mesh.check(section, idealization(scene).is_axisymmetric(), n_ranks);
   check_materials(scene, section, body);
   section.require(scene.model != mesh::Idealization::Kind::plane_stress ||
                     body.formulation == elasticity::Formulation::standard,

@@ -210,7 +210,7 @@ void check_names(const Scene &scene, const Origins &origins)
     check_list_of_names("Shapes", names_of(scene.shapes), origins);
 }
 
-void check(const Scene &scene, const Origins &origins)
+void check(const Scene &scene, const Origins &origins, const unsigned int n_ranks)
 {
   const auto section = [&](const std::string &name) {
     return SectionCheck(name, origins, scene.dimension);
@@ -221,7 +221,7 @@ void check(const Scene &scene, const Origins &origins)
   for (const auto &material : scene.materials)
     material.material.check(section(material.section()));
   for (const auto &body : scene.bodies)
-    check_body(scene, section(body.section()), body);
+    check_body(scene, section(body.section()), body, n_ranks);
   check_all_loads(scene, origins);
   check_export(scene, origins);
   check_contact(scene, origins);

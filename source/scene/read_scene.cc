@@ -1,3 +1,4 @@
+#include <snug/base/gather.h>
 #include <snug/cad/import_cad.h>
 #include <snug/mesh_file/deck_text.h>
 #include <snug/mesh_file/import_mesh.h>
@@ -170,6 +171,12 @@ void complete(Scene &scene)
     obstacle.complete(scene.dimension);
 }
 
+/// Return the ranks that read a scene together.
+MPI_Comm communicator(const SceneSource &source)
+{
+  return source.context == nullptr ? MPI_COMM_SELF : source.context->communicator();
+}
+
 /// Return the contents of a mesh file, with the files that it includes. @throws InputError naming
 /// the entry.
 std::string mesh_text(const SceneSource &source, const std::string &file)
@@ -212,7 +219,9 @@ void read_meshes(const SceneSource &source, const Origins &origins, Scene &scene
           mesh.imported =
             is_cad ? cad::import_cad(mesh, scene.dimension,
                                      scene.output_directory + "/cad/" + body.name, *source.context)
-                   : mesh_file::import_mesh(mesh_text(source, mesh.file), mesh, scene.dimension);
+                   : mesh_file::import_mesh(
+                       communicator(source), [&]() { return mesh_text(source, mesh.file); }, mesh,
+                       scene.dimension);
         }
       catch (const InputError &error)
         {
@@ -234,8 +243,10 @@ void read_initial_designs(const SceneSource &source, const Origins &origins, Sce
         {
           section.require(bool(source.read_file), "Initial", shape.initial_from,
                           "cannot be read here");
-          const auto designs = nlohmann::json::parse(source.read_file(file)).at("optimization");
-          shape.initial      = designs.at("shapes").at(shape.name).get<std::vector<double>>();
+          const auto summary = nlohmann::json::parse(
+            made_on_first_rank(communicator(source), [&]() { return source.read_file(file); }));
+          const auto &designs = summary.at("optimization").at("shapes");
+          shape.initial       = designs.at(shape.name).get<std::vector<double>>();
         }
       catch (const nlohmann::json::exception &)
         {
@@ -253,11 +264,7 @@ void read_initial_designs(const SceneSource &source, const Origins &origins, Sce
 /// Return whether the mesh of a mesh file or CAD file of the body has elements with triangles.
 bool has_triangles(const Body &body)
 {
-  const auto any = [](const auto &mesh) {
-    return mesh && std::any_of(mesh->parts.begin(), mesh->parts.end(),
-                               [](const auto &part) { return part.has_triangles(); });
-  };
-  return body.mesh.imported && (any(body.mesh.imported->flat) || any(body.mesh.imported->solid));
+  return body.mesh.imported && body.mesh.imported->has_triangles;
 }
 
 std::string table_cell(std::string text)
@@ -278,21 +285,10 @@ void print_meanings(const Entries::Description &entry, std::ostream &out)
 }
 } // namespace
 
-std::string read_text(const std::string &file, MPI_Comm communicator, const TextSource source)
+std::string read_text(const std::string &file, const TextSource source)
 {
-  int rank;
-  MPI_Comm_rank(communicator, &rank);
-  std::string   text;
-  unsigned long header[2] = {0, 0}; // success, length
-  if (rank == 0)
-    {
-      header[0] = try_to_read(file, source, text);
-      header[1] = text.size();
-    }
-  MPI_Bcast(header, 2, MPI_UNSIGNED_LONG, 0, communicator);
-  text.resize(header[1]);
-  MPI_Bcast(&text[0], header[1], MPI_CHAR, 0, communicator);
-  if (header[0] == 0)
+  std::string text;
+  if (!try_to_read(file, source, text))
     throw InputError("cannot read the file '" + quotable(file) + "': " + text);
   return text;
 }
@@ -314,7 +310,13 @@ Scene read_scene(const SceneSource &source)
   read_initial_designs(source, origins, scene);
   if (scene.degree == 0)
     scene.degree = std::any_of(scene.bodies.begin(), scene.bodies.end(), has_triangles) ? 2 : 1;
-  check(scene, origins);
+  // Only rank 0 has the cells of mesh files.
+  throw_collectively(communicator(source), [&]() {
+    if (source.context == nullptr)
+      check(scene, origins);
+    else if (source.context->rank() == 0)
+      check(scene, origins, source.context->n_ranks());
+  });
   return scene;
 }
 

@@ -60,7 +60,7 @@ scene::Scene make_scene(const std::string &file, const Size &size)
   std::vector<std::string> sets  = {"Task=state", "Body punch" + cells, "Body foundation" + cells};
   if (size.subdomains > 0)
     sets.push_back("Decomposition/Subdomains=" + std::to_string(size.subdomains));
-  return scene::read_scene({file, scene::read_text(file, MPI_COMM_WORLD), sets, ""});
+  return scene::read_scene({file, scene::read_text(file), sets, ""});
 }
 
 /// Everything of one size: mesh, the state solved once, both sides.

@@ -12,13 +12,13 @@ int main(int argc, char *argv[])
 {
   using namespace snug;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const auto read  = [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); };
-  const auto scene = scene::read_scene({argv[1], read(argv[1]), {}, "", read});
-  const auto mesh  = app::build_mesh<3>(scene, MPI_COMM_WORLD);
-  const auto tearing   = mesh::tear(*mesh);
-  const auto positions = mesh->reference_positions();
-  const auto model     = app::build_model(scene, *mesh);
-  RunContext context(MPI_COMM_WORLD, std::clog);
+  const auto            read      = [](const std::string &file) { return scene::read_text(file); };
+  const auto            scene     = scene::read_scene({argv[1], read(argv[1]), {}, "", read});
+  const auto            mesh      = app::build_mesh<3>(scene, MPI_COMM_WORLD);
+  const auto            tearing   = mesh::tear(*mesh);
+  const auto            positions = mesh->reference_positions();
+  const auto            model     = app::build_model(scene, *mesh);
+  RunContext            context(MPI_COMM_WORLD, std::clog);
   state::StateSolver<3> solver(*mesh, tearing, model, positions, context);
   const auto            state = solver.solve(positions, qp::WarmStart());
   if (context.rank() == 0)

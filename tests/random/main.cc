@@ -63,7 +63,7 @@ void report(const std::string &name, const Outcome &outcome, bool all)
 
 bool run_file(const std::string &file, bool prints)
 {
-  const auto outcome = check_scene(file, snug::scene::read_text(file, MPI_COMM_WORLD));
+  const auto outcome = check_scene(file, snug::scene::read_text(file));
   if (prints)
     report(file, outcome, true);
   return outcome.kind == Outcome::wrong;

@@ -7,8 +7,8 @@
 #include <snug/scene/read_scene.h>
 
 namespace snug::app {
-/// Replace a deck by its parameter file, and return the translation, which is empty for other
-/// texts.
+/// Replace a deck by its parameter file on this rank, and return the translation, which is empty
+/// for other texts.
 /// @throws InputError naming the file, also if the text must be a deck, but is not.
 deck::Translation translate_deck(scene::SceneSource &source, bool must_be_deck);
 

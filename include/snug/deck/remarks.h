@@ -29,6 +29,12 @@ struct LackingPart
 {
   std::string kind; ///< by which --leave-out accepts it: the keyword in lower case, "contact pair"
   std::string text; ///< "*CONTACT PAIR of a body with itself (line 3)"
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & kind & text;
+  }
 };
 
 /// The parts of a deck that its translation does not take over.

@@ -12,6 +12,12 @@ struct Translation
   std::string              not_needed; ///< keywords and options that change no result
   std::vector<std::string> replaced;   ///< parts of the model that others replace
   std::vector<LackingPart> lacking;    ///< parts of the model that the parameter file lacks
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & text & not_needed & replaced & lacking;
+  }
 };
 
 /// Return whether @p text is a deck of Abaqus or CalculiX: its first word begins with *.

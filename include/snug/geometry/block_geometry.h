@@ -5,6 +5,8 @@
 #include <snug/geometry/body_geometry.h>
 #include <snug/geometry/cell_numbering.h>
 
+#include <algorithm>
+
 namespace snug::geometry {
 /**
  * A body of blocks. A point with coordinates u in a block lies at the
@@ -24,7 +26,13 @@ public:
 
   typename BodyGeometry<dim>::CoarseMesh coarse_mesh() const override;
 
-  double n_coarse_cells() const override { return mesh->blocks.size() * product(mesh->cells); }
+  double n_coarse_cells() const override
+  {
+    return double(mesh->is_excerpt() ? mesh->place.n_blocks : mesh->blocks.size()) *
+           cells_per_block();
+  }
+
+  bool has_all_cells() const override { return !mesh->is_excerpt(); }
 
   const std::vector<std::string> &boundary_names() const override { return mesh->boundary_names; }
 
@@ -33,13 +41,13 @@ public:
   /// Coarse cells are numbered block after block.
   unsigned int region(unsigned int coarse_cell) const override
   {
-    return mesh->regions[coarse_cell / cells_per_block()];
+    return mesh->regions[block_of(coarse_cell)];
   }
 
   /// Blocks that are parts of elements have one coarse cell.
   ElementPart<dim> element_part(unsigned int coarse_cell) const override
   {
-    return mesh->parts.empty() ? ElementPart<dim>() : mesh->parts[coarse_cell];
+    return mesh->parts.empty() ? ElementPart<dim>() : mesh->parts[block_of(coarse_cell)];
   }
 
   std::vector<KnownSurface<dim>> known_surfaces() const override { return mesh->known_surfaces; }
@@ -58,10 +66,10 @@ public:
   {
     // Blocks have no common axes, so the logical coordinates are positions in units of the
     // diagonal of the body.
-    return Point((position(point) - lower) / lower.distance(upper));
+    return Point((position(point) - bounds[0]) / bounds[0].distance(bounds[1]));
   }
 
-  dealii::Tensor<1, dim> extent() const override { return upper - lower; }
+  dealii::Tensor<1, dim> extent() const override { return bounds[1] - bounds[0]; }
 
 private:
   using Manifold = const dealii::Manifold<dim, dim>;
@@ -70,9 +78,9 @@ private:
   std::shared_ptr<const BlockMesh<dim>> mesh;
   /// curved edges and faces, by the vertices in ascending order
   std::map<std::vector<unsigned int>, Manifold *> curved;
-  std::vector<bool>                               is_curved;    ///< per block
-  std::vector<bool>                               on_curve;     ///< per vertex
-  Point                                           lower, upper; ///< bounds of the vertices
+  std::vector<bool>                               is_curved; ///< per block
+  std::vector<bool>                               on_curve;  ///< per vertex
+  std::array<Point, 2>                            bounds;    ///< of the vertices
 
   /// Return whether an edge or a face may be curved: all vertices are on curved ones. This check
   /// saves most searches.
@@ -83,7 +91,18 @@ private:
   }
 
   unsigned int cells_per_block() const { return product(mesh->cells); }
-  Point        block_position(unsigned int block, const Point &u) const;
+
+  /// Return the index of the block of a coarse cell, which must be on this rank.
+  unsigned int block_of(const unsigned int coarse_cell) const
+  {
+    const unsigned int block   = coarse_cell / cells_per_block();
+    const auto        &numbers = mesh->place.numbers;
+    return mesh->is_excerpt()
+             ? std::lower_bound(numbers.begin(), numbers.end(), block) - numbers.begin()
+             : block;
+  }
+
+  Point block_position(unsigned int block, const Point &u) const;
   /// Return the position on the piece with these vertices, or null if there is no such piece.
   std::unique_ptr<Point> piece_position(const std::vector<unsigned int> &vertices,
                                         const std::vector<double>       &weights) const;

@@ -6,6 +6,11 @@
 
 #include <deal.II/base/point.h>
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/shared_ptr.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <array>
 #include <map>
 #include <memory>
@@ -35,6 +40,31 @@ struct BlockMesh
   {
     std::shared_ptr<Patch<dim>>   patch;
     std::vector<dealii::Point<2>> at;
+
+    /// Patches on the surfaces of CAD files cannot be sent.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive.template register_type<KnownSurface<dim>>();
+      archive.template register_type<Curve<dim>>();
+      if constexpr (dim == 3)
+        archive.template register_type<FacetPatch>();
+      archive & patch & at;
+    }
+  };
+
+  /// The place of an excerpt in the mesh, see excerpt().
+  struct Excerpt
+  {
+    std::vector<unsigned int> numbers;      ///< of the blocks of the excerpt in the mesh, ascending
+    unsigned int              n_blocks = 0; ///< of the mesh
+    std::array<dealii::Point<dim>, 2> bounds; ///< of the vertices of the mesh
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive & numbers & n_blocks & bounds;
+    }
   };
 
   std::vector<dealii::Point<dim>>        vertices;
@@ -58,7 +88,29 @@ struct BlockMesh
   Surface inside;
   /// numbers of coarse cells along the axes of every block
   std::array<unsigned int, dim> cells;
+  /// Only of an excerpt, which has no boundaries. The vertices have other numbers than in the mesh,
+  /// but the same order.
+  Excerpt place;
+
+  bool is_excerpt() const { return place.n_blocks > 0; }
+
+  /// Send a mesh without manifolds, that is any mesh but those of round bodies.
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & vertices & blocks & regions & parts & boundaries & boundary_names & region_names;
+    archive & pieces & known_surfaces & known & shapes & cells & place;
+  }
 };
+
+/// Return the @p blocks of a mesh, in ascending order, with all that positions in them depend on.
+/// The excerpt without blocks has the names and the bounds of the mesh.
+template <int dim>
+BlockMesh<dim> excerpt(const BlockMesh<dim> &mesh, const std::vector<unsigned int> &blocks);
+
+/// Return the lower and the upper bounds of the vertices of the whole mesh.
+template <int dim>
+std::array<dealii::Point<dim>, 2> bounds_of(const BlockMesh<dim> &mesh);
 
 /// Add the mirror image of the mesh at the plane x_axis = 0. The boundary faces called @p name lie
 /// in this plane and are removed, because they are interior faces of the result.

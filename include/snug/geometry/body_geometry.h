@@ -146,7 +146,7 @@ struct BodyMeshParameters
   void complete(unsigned int dimension);
   /// Check that the mesh can be made from the entries and is not too large, and that bodies of
   /// revolution have no negative radius. @throws InputError naming the entry.
-  void check(const SectionCheck &section, bool axisymmetric) const;
+  void check(const SectionCheck &section, bool axisymmetric, unsigned int n_ranks) const;
 };
 
 /// A point of a body, given by a cell of the coarse mesh and coordinates in
@@ -173,6 +173,12 @@ struct ElementPart
   unsigned char                  n_corners = 0;          ///< of the element
   unsigned char                  corner    = 0;
   std::array<unsigned char, dim> towards   = {};
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & element & n_corners & corner & towards;
+  }
 
   /// Return whether the element is a triangle, a tetrahedron or a prism.
   bool has_triangles() const { return element != no_element && n_corners != 1u << dim; }
@@ -216,9 +222,15 @@ public:
     std::vector<std::pair<std::vector<unsigned int>, unsigned int>> boundary_faces;
   };
 
+  /// Return the coarse mesh. The geometry must have all cells.
   virtual CoarseMesh coarse_mesh() const = 0;
 
-  /// Return the number of coarse cells. The number may exceed the number of cells of any mesh.
+  /// Return whether all coarse cells are on this rank. If not, functions of a cell must only be
+  /// called for cells on this rank. All other functions return the same.
+  virtual bool has_all_cells() const { return true; }
+
+  /// Return the number of coarse cells, on all ranks. The number may exceed the number of cells of
+  /// any mesh.
   virtual double n_coarse_cells() const = 0;
 
   virtual const std::vector<std::string> &boundary_names() const = 0;

@@ -4,6 +4,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <boost/serialization/void_cast.hpp>
+
 #include <string>
 
 namespace snug::geometry {
@@ -15,6 +17,12 @@ struct BoundaryShape
   /// maximum distance of facets from the smooth surface that they approximate, if contact uses the
   /// facets themselves [length]
   double facet_height = 0.;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & name & facet_height;
+  }
 };
 
 /// This class is a curve or a surface onto which points are projected.
@@ -69,6 +77,13 @@ public:
 
   /// Return the surface after the placement x' = s Q x + t of the body.
   KnownSurface placed(double scale, const dealii::Tensor<2, dim> &Q, const Vector &shift) const;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    boost::serialization::void_cast_register<KnownSurface, Projection<dim>>();
+    archive & kind & centre & axis & radius & tube & angle & encloses_body;
+  }
 
 private:
   /// Return the vector to @p x from the closest point of the centre of a sphere, the axis, or the

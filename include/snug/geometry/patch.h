@@ -3,6 +3,11 @@
 
 #include <snug/geometry/known_surface.h>
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/base_object.hpp>
+#include <boost/serialization/shared_ptr.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <array>
 #include <functional>
 #include <memory>
@@ -22,6 +27,12 @@ struct GeometryConstraints
   /// through @p x. The point is found by Newton's method with steps of minimum length. If surfaces
   /// are almost tangent at the point, only the first of these surfaces is used.
   dealii::Point<dim> onto(dealii::Point<dim> x) const;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & surfaces & planes & first;
+  }
 };
 
 /// A curve or a surface with its own coordinates. Curves use only the first coordinate, in [0,1].
@@ -36,6 +47,12 @@ public:
   /// Factor on the distance from the straight edge or facet. The factor is below 1 only for patches
   /// of cells that would otherwise be too thin.
   double scale = 1.;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive & scale;
+  }
 };
 
 /// The curve from a to b, x(t) = (1 - t) a + t b + t (1 - t) ((1 - t) c_0 + t c_1), moved onto the
@@ -60,7 +77,16 @@ public:
   /// Return the offset of x(t) from the straight edge.
   Vector offset(double t) const;
 
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive &boost::serialization::base_object<Patch<dim>>(*this) & a & b & c & constraints;
+  }
+
 private:
+  friend class boost::serialization::access;
+  Curve() = default; // of a curve that is received
+
   Point                    a, b;
   std::array<Vector, 2>    c;
   GeometryConstraints<dim> constraints;
@@ -86,6 +112,12 @@ public:
   {
     std::shared_ptr<const Curve<3>> curve;
     bool                            reversed = false;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive & curve & reversed;
+    }
   };
 
   std::vector<Point>                   corners;
@@ -100,6 +132,13 @@ public:
 
   /// Return the maximum distance of the curves from the surface, sampled at quarters of each curve.
   double gap() const;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    archive &boost::serialization::base_object<Patch<3>>(*this);
+    archive & corners & sides & bubble & surface;
+  }
 
 private:
   Point  on_chord(unsigned int side, double t) const;

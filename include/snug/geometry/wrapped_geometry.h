@@ -18,6 +18,8 @@ public:
     return body->coarse_mesh();
   }
 
+  bool has_all_cells() const override { return body->has_all_cells(); }
+
   double n_coarse_cells() const override { return body->n_coarse_cells(); }
 
   const std::vector<std::string> &boundary_names() const override { return body->boundary_names(); }

@@ -8,6 +8,16 @@
 #include <deal.II/distributed/fully_distributed_tria.h>
 
 namespace snug::mesh {
+/// The cells of this rank after the distribution.
+template <int dim>
+struct LocalCells
+{
+  std::vector<unsigned int> parts;    ///< of the owned cells, numbered body by body
+  QuadraticElements<dim>    elements; ///< of the owned cells and the ghost cells at least
+  /// of all bodies, with the owned cells and the ghost cells at least
+  std::shared_ptr<const Geometries<dim>> geometries;
+};
+
 /**
  * Decide the parts into which the bodies are torn and give whole parts to
  * the ranks, so that subdomains do not depend on the number of ranks.
@@ -28,21 +38,23 @@ namespace snug::mesh {
  */
 template <int dim>
 std::vector<unsigned int>
-distribute(const CoarseMesh<dim>                                   &coarse,
-           const QuadraticElements<dim>                            &elements,
-           const TearingParameters                                 &parameters,
-           const CellsPerSubdomain                                 &by_size,
-           const dealii::parallel::distributed::Triangulation<dim> &refined,
-           dealii::parallel::fullydistributed::Triangulation<dim>  &result);
+distribute_refined(const CoarseMesh<dim>                                   &coarse,
+                   const QuadraticElements<dim>                            &elements,
+                   const TearingParameters                                 &parameters,
+                   const CellsPerSubdomain                                 &by_size,
+                   const dealii::parallel::distributed::Triangulation<dim> &refined,
+                   dealii::parallel::fullydistributed::Triangulation<dim>  &result);
 
-/// Distribute the coarse cells themselves in the same way, without a forest of p4est.
+/// Distribute the coarse cells themselves in the same way, without a forest of p4est. Rank 0
+/// decides the parts and sends all other ranks their cells, so that only rank 0 needs the coarse
+/// mesh, the @p elements and the cells of mesh files. Collective.
+/// @throws InputError if a formula of a geometry is not finite.
 template <int dim>
-std::vector<unsigned int>
-distribute(const CoarseMesh<dim>                                  &coarse,
-           const QuadraticElements<dim>                           &elements,
-           const TearingParameters                                &parameters,
-           const CellsPerSubdomain                                &by_size,
-           dealii::parallel::fullydistributed::Triangulation<dim> &result);
+LocalCells<dim> distribute_coarse(const Forest<dim>            &forest,
+                                  const QuadraticElements<dim> &elements,
+                                  const TearingParameters      &parameters,
+                                  const CellsPerSubdomain      &by_size,
+                                  dealii::parallel::fullydistributed::Triangulation<dim> &result);
 
 /// Distribute the coarse cells themselves to the same ranks and parts by the row "grid" of
 /// partition_table(). All bodies must have grids. A rank computes its own cells and their
@@ -58,12 +70,11 @@ distribute_grids(const Geometries<dim>                                  &geometr
 /// Distribute the cells of a forest by the function above that needs least. Collective.
 /// @throws InputError if a formula of a geometry is not finite.
 template <int dim>
-std::vector<unsigned int>
-distribute(const Forest<dim>                                      &forest,
-           const QuadraticElements<dim>                           &elements,
-           const TearingParameters                                &parameters,
-           const CellsPerSubdomain                                &by_size,
-           dealii::parallel::fullydistributed::Triangulation<dim> &result);
+LocalCells<dim> distribute(const Forest<dim>                                      &forest,
+                           const QuadraticElements<dim>                           &elements,
+                           const TearingParameters                                &parameters,
+                           const CellsPerSubdomain                                &by_size,
+                           dealii::parallel::fullydistributed::Triangulation<dim> &result);
 } // namespace snug::mesh
 
 #endif

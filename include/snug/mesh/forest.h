@@ -14,10 +14,9 @@
 
 namespace snug::mesh {
 template <int dim>
-using Geometries = std::vector<std::unique_ptr<geometry::BodyGeometry<dim>>>;
+using Geometries = std::vector<std::shared_ptr<const geometry::BodyGeometry<dim>>>;
 
-/// The joint coarse mesh of all bodies, which a rank holds completely. Bodies share no vertices,
-/// even where bodies touch.
+/// The joint coarse mesh of all bodies. Bodies share no vertices, even where bodies touch.
 template <int dim>
 struct CoarseMesh
 {
@@ -36,7 +35,8 @@ struct CoarseMesh
 /**
  * The coarse cells of all bodies and the cells into which they are refined. Meshes are made from a
  * forest (BodyMesh). A forest can be refined further, so that the mesh of an adaptive step is made
- * from the forest of the step before.
+ * from the forest of the step before. Some bodies may have their cells on rank 0 alone, until
+ * a cell is refined: p4est needs the coarse mesh on every rank.
  */
 template <int dim>
 class Forest
@@ -65,8 +65,11 @@ public:
   /// Return the index of each coarse cell in its body.
   const geometry::CoarseCells<dim> &places() const { return cell_places; }
 
+  /// Return the bodies whose cells only rank 0 has.
+  const std::vector<unsigned int> &bodies_of_rank_0() const { return lacking; }
+
   /// Return the coarse mesh, which is made when it is asked for: grids without refinement do
-  /// without it.
+  /// without it. The bodies must have all cells on this rank.
   const CoarseMesh<dim> &coarse() const;
 
   /// Return the triangulation of p4est, or null as long as no cell has been refined. Its coarse
@@ -77,6 +80,7 @@ private:
   MPI_Comm                                  comm;
   std::vector<geometry::BodyMeshParameters> parameters;
   std::shared_ptr<const Geometries<dim>>    shapes;
+  std::vector<unsigned int>                 lacking; ///< bodies on some rank
   geometry::CoarseCells<dim>                cell_places;
   mutable std::unique_ptr<CoarseMesh<dim>>  coarse_mesh;
   std::unique_ptr<Triangulation>            refined;
@@ -84,6 +88,7 @@ private:
   /// Return whether a cell is wanted to be refined, given its body, its id and its level.
   using Wanted = std::function<bool(unsigned int, const dealii::CellId &, unsigned int)>;
 
+  void make_geometries();
   void create_triangulation();
   bool refine_step(const Wanted &wanted);
 };

@@ -48,8 +48,12 @@ public:
   /// Find no elements, so that no node is constrained.
   QuadraticElements() = default;
 
-  /// Find the elements of all bodies. Collective.
+  /// Find the elements of all bodies. Without refined cells, rank 0 finds them, and all other ranks
+  /// get theirs by of_cells(). Collective.
   explicit QuadraticElements(const Forest<dim> &forest);
+
+  /// Return the elements of some coarse cells, given in ascending order.
+  QuadraticElements of_cells(const std::vector<unsigned int> &coarse) const;
 
   /// Return the place of a cell, whose id has the position in the coarse mesh. The place has no
   /// element if a cell of the element was refined. The elements of all bodies have different
@@ -68,20 +72,34 @@ public:
                  const std::vector<unsigned int>   &order,
                  dealii::AffineConstraints<double> &constraints) const;
 
-private:
-  std::vector<geometry::ElementPart<dim>> parts;      ///< per coarse cell; empty without elements
-  std::vector<std::vector<unsigned int>>  vertices;   ///< per coarse cell
-  std::vector<unsigned char>              refined;    ///< per element
-  std::vector<bool>                       is_hanging; ///< per vertex: see mark()
-
-  bool is_refined(const unsigned int coarse_cell) const
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
   {
-    const unsigned int element = parts[coarse_cell].element;
-    return element != geometry::no_element && refined[element] > 0;
+    archive & cells;
   }
 
-  void find_refined(const Forest<dim> &forest);
-  void mark(const Forest<dim> &forest);
+private:
+  /// A coarse cell that is a part of an element.
+  struct Cell
+  {
+    unsigned int               coarse;     ///< position in the coarse mesh
+    geometry::ElementPart<dim> part;       ///< elements are numbered over all bodies
+    bool                       is_refined; ///< a cell of the element was refined
+    unsigned char              hanging;    ///< bit v: vertex v is marked, see mark()
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive & coarse & part & is_refined & hanging;
+    }
+  };
+
+  std::vector<Cell> cells; ///< ascending
+
+  /// Return a coarse cell, or null if it is no part of an element.
+  const Cell *find(unsigned int coarse) const;
+  void        find_refined(const Forest<dim> &forest, unsigned int n_elements);
+  void        mark(const CoarseMesh<dim> &coarse, unsigned int n_elements);
 };
 } // namespace snug::mesh
 

@@ -5,6 +5,10 @@
 #include <snug/mesh_file/exact_faces.h>
 #include <snug/mesh_file/mesh_file.h>
 
+#include <mpi.h>
+
+#include <functional>
+
 namespace snug::mesh_file {
 /**
  * Return the cells and boundaries of the mesh file with the content @p text:
@@ -21,6 +25,14 @@ namespace snug::mesh_file {
  */
 std::shared_ptr<const geometry::ImportedMesh>
 import_mesh(const std::string                  &text,
+            const geometry::BodyMeshParameters &parameters,
+            unsigned int                        dim);
+
+/// Return the same on rank 0 for the file whose content @p text returns there, and without cells on
+/// all other ranks. Collective.
+std::shared_ptr<const geometry::ImportedMesh>
+import_mesh(MPI_Comm                            communicator,
+            const std::function<std::string()> &text,
             const geometry::BodyMeshParameters &parameters,
             unsigned int                        dim);
 

@@ -20,14 +20,20 @@ namespace snug::scene {
  * - tasks that need design variables have some;
  * - responses measure existing bodies, faces and pairs; objective and
  *   constraints are responses, with limits that the algorithm supports.
+ *
+ * @p n_ranks is the number of ranks on which the scene will be solved, which limits the number of
+ * cells.
  */
-void check(const Scene &scene, const Origins &origins = Origins());
+void check(const Scene &scene, const Origins &origins = Origins(), unsigned int n_ranks = 1);
 
 /// @name Parts of check()
 /// @{
 void check_names(const Scene &scene, const Origins &origins);
 /// Check mesh, materials and supports.
-void check_body(const Scene &scene, const SectionCheck &section, const Body &body);
+void check_body(const Scene        &scene,
+                const SectionCheck &section,
+                const Body         &body,
+                unsigned int        n_ranks);
 /// Check the loads of a body. Components held by supports and loads are added to @p held.
 void check_loads(const SectionCheck &section, const Body &body, LoadParameters::Held &held);
 void check_contact(const Scene &scene, const Origins &origins);

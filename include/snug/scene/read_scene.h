@@ -5,8 +5,6 @@
 #include <snug/base/run_context.h>
 #include <snug/scene/scene.h>
 
-#include <mpi.h>
-
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -20,9 +18,10 @@ struct SceneSource
   std::string              text;             ///< contents of the parameter file
   std::vector<std::string> sets;             ///< statements "Subsection/Entry=value"
   std::string              output_directory; ///< if not empty, it overrides the entry
-  /// function that reads mesh files; if empty, mesh files cannot be read
+  /// function that reads mesh files on rank 0; if empty, mesh files cannot be read
   std::function<std::string(const std::string &file)> read_file = {};
-  /// run that reads CAD files and gets the verbosity of the scene; null: CAD files cannot be read
+  /// run that reads the scene and gets its verbosity; null: every rank reads the scene by itself,
+  /// and CAD files cannot be read
   RunContext *context = nullptr;
 };
 
@@ -33,18 +32,14 @@ enum class TextSource
   any ///< devices and pipes too, such as /dev/stdin, if they contain at most 16 MB
 };
 
-/**
- * Return the contents of a file, read by rank 0 only. Collective.
- * @throws InputError on all ranks if it cannot be read.
- */
-std::string read_text(const std::string &file,
-                      MPI_Comm           communicator,
-                      TextSource         source = TextSource::regular_file);
+/// Return the contents of a file. @throws InputError if it cannot be read.
+std::string read_text(const std::string &file, TextSource source = TextSource::regular_file);
 
 /**
  * Read and check a scene and the mesh files and CAD files named in the scene. Empty lists that have
  * a default (corner, size, grading, body force, initial design) are filled in. Equal sources give
- * equal scenes and equal errors. Collective if reading files is collective.
+ * equal scenes and equal errors. Of mesh files, only rank 0 has the cells, see ImportedMesh.
+ * Collective on the ranks of the run.
  *
  * @throws InputError, one line with file, line, entry, value and the allowed values; see check()
  * for the checks beyond the form of values.

@@ -48,9 +48,8 @@ end
 struct Verified
 {
   explicit Verified(const std::vector<std::string> &sets)
-    : scene(scene::read_scene(
-        {"scene.prm", coarse_punch, sets, "",
-         [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }}))
+    : scene(scene::read_scene({"scene.prm", coarse_punch, sets, "",
+                               [](const std::string &file) { return scene::read_text(file); }}))
     , context(MPI_COMM_WORLD, log)
     , adaptation(context, scene)
   {

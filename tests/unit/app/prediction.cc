@@ -65,9 +65,8 @@ end
 struct Told
 {
   explicit Told(const std::vector<std::string> &sets)
-    : scene(scene::read_scene(
-        {"scene.prm", two_loads, sets, "",
-         [](const std::string &file) { return scene::read_text(file, MPI_COMM_WORLD); }}))
+    : scene(scene::read_scene({"scene.prm", two_loads, sets, "",
+                               [](const std::string &file) { return scene::read_text(file); }}))
     , context(MPI_COMM_WORLD, log)
     , shape_problem(context,
                     scene,

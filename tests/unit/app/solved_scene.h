@@ -88,10 +88,7 @@ public:
   state::ContactState<dim>            state;
 
 private:
-  static std::string contents(const std::string &file)
-  {
-    return scene::read_text(file, MPI_COMM_WORLD);
-  }
+  static std::string contents(const std::string &file) { return scene::read_text(file); }
 
   static std::vector<double> to_list(const dealii::Tensor<1, dim> &v)
   {

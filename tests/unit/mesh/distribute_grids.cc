@@ -90,8 +90,9 @@ void expect_same(const MPI_Comm communicator, const Bodies &bodies, const unsign
   const auto by_size = mesh::cells_per_subdomain(dim, 1, mesh::Idealization::natural(dim));
   const mesh::Forest<dim>                                forest(communicator, bodies);
   dealii::parallel::fullydistributed::Triangulation<dim> all(communicator), grids(communicator);
-  EXPECT_EQ(mesh::distribute(forest.coarse(), mesh::QuadraticElements<dim>(forest), tearing,
-                             by_size, all),
+  EXPECT_EQ(mesh::distribute_coarse(forest, mesh::QuadraticElements<dim>(forest), tearing, by_size,
+                                    all)
+              .parts,
             mesh::distribute_grids(*forest.geometries(), tearing, by_size, grids));
   expect_same_cells(all, grids);
 }

@@ -191,7 +191,7 @@ TEST(Errors, PropertiesAndMeshes)
   expect_error({"Body punch/Poisson's ratio", "-1", "above -1"});
   expect_error({"Body punch/Box size", "1, 1, 0", "must be positive"});
   expect_error({"Body punch/Box grading", "1, 1, -2", "must be positive"});
-  expect_error({"Body punch/Box cells", "9999, 9999, 9999", "4e6 cells"});
+  expect_error({"Body punch/Box cells", "9999, 9999, 9999", "4e6 cells per MPI rank"});
   expect_error({"Body punch/Refinements", "29", "1e9 cells"});
   const auto twice = error_of({"Body punch/Refinements=40"});
   EXPECT_EQ(twice.find("entry '"), twice.rfind("entry '")) << twice;

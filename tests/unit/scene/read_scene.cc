@@ -270,9 +270,9 @@ TEST(ReadText, GivesTheContentsOfAFile)
 {
   const std::string file = ::testing::TempDir() + "snug-read-text.prm";
   std::ofstream(file) << "a\n\nb";
-  EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD), "a\n\nb");
+  EXPECT_EQ(scene::read_text(file), "a\n\nb");
   std::ofstream(file).close();
-  EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD), "");
+  EXPECT_EQ(scene::read_text(file), "");
   std::remove(file.c_str());
 }
 
@@ -282,7 +282,7 @@ TEST(ReadText, TakesDevicesAndPipesOnlyIfAskedAndOnlyIfTheyEnd)
   const auto failure_reason = [](const std::string &file, const Source source) -> std::string {
     try
       {
-        scene::read_text(file, MPI_COMM_WORLD, source);
+        scene::read_text(file, source);
         return "";
       }
     catch (const InputError &error)
@@ -300,7 +300,7 @@ TEST(ReadText, TakesDevicesAndPipesOnlyIfAskedAndOnlyIfTheyEnd)
   close(ends[1]);
   const auto file = "/dev/fd/" + std::to_string(ends[0]);
   EXPECT_NE(failure_reason(file, Source::regular_file), "");
-  EXPECT_EQ(scene::read_text(file, MPI_COMM_WORLD, Source::any), "set Task = state");
+  EXPECT_EQ(scene::read_text(file, Source::any), "set Task = state");
   close(ends[0]);
 }
 
@@ -309,7 +309,7 @@ TEST(ReadText, NamesAFileThatCannotBeRead)
   for (const std::string file : {"nowhere/nothing.prm", "/"})
     try
       {
-        scene::read_text(file, MPI_COMM_WORLD);
+        scene::read_text(file);
         ADD_FAILURE() << file;
       }
     catch (const InputError &error)
