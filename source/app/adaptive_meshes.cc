@@ -2,6 +2,7 @@
 #include <snug/accuracy/targets.h>
 #include <snug/app/adaptive_meshes.h>
 #include <snug/app/build_model.h>
+#include <snug/base/gather.h>
 #include <snug/contact/joined_pairs.h>
 #include <snug/contact/matching.h>
 #include <snug/geometry/body_sources.h>
@@ -32,20 +33,24 @@ double missed_data(const scene::Scene &scene)
   return std::max(part, least);
 }
 
-/// Return the centres of cells of the body of a CAD file, in the coordinates of the file.
+/// Return the centres of cells of the body of a CAD file, in the coordinates of the file. Rank 0
+/// has the cells.
 template <int dim>
-std::vector<dealii::Point<3>> places_in_file(const geometry::BodyMeshParameters &parameters,
+std::vector<dealii::Point<3>> places_in_file(const MPI_Comm                      communicator,
+                                             const geometry::BodyMeshParameters &parameters,
                                              const geometry::CoarseCells<dim>   &coarse,
                                              const std::vector<dealii::CellId>  &cells)
 {
-  const auto                    in_file = geometry::make_imported<dim>(parameters);
-  std::vector<dealii::Point<3>> places;
-  for (const auto &cell : cells)
-    {
-      const auto x = in_file->position(coarse.point(cell, geometry::unit_centre<dim>()));
-      places.emplace_back(x[0], x[1], dim == 3 ? x[dim - 1] : 0.);
-    }
-  return places;
+  return made_on_first_rank(communicator, [&]() {
+    const auto                    in_file = geometry::make_imported<dim>(parameters);
+    std::vector<dealii::Point<3>> places;
+    for (const auto &cell : cells)
+      {
+        const auto x = in_file->position(coarse.point(cell, geometry::unit_centre<dim>()));
+        places.emplace_back(x[0], x[1], dim == 3 ? x[dim - 1] : 0.);
+      }
+    return places;
+  });
 }
 } // namespace
 
@@ -157,7 +162,9 @@ void AdaptiveMeshes<dim>::add_cells(const mesh::BodyMesh<dim>         &mesh,
   for (const auto &[body, cells] : of_files)
     if (const auto n = of_mesh.n_halvings(body);
         remesh_cad && n < the_scene.accuracy.maximum_levels)
-      to.halve(body, n, places_in_file<dim>(the_scene.bodies[body].mesh, coarse, cells));
+      to.halve(body, n,
+               places_in_file<dim>(context.communicator(), the_scene.bodies[body].mesh, coarse,
+                                   cells));
 }
 
 template <int dim>

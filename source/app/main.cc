@@ -96,9 +96,13 @@ int main(int argc, char *argv[])
       return app::exit_status(error);
     }
   pass_to_petsc(options.petsc);
-  // Otherwise Open MPI 4 starts a daemon for a process without a launcher, which takes 0.1 s.
+  // Otherwise Open MPI 4 starts a daemon for a process without a launcher, which takes 0.1 s, and
+  // makes directories in /tmp that another job may remove at the same time.
   if (launcher_rank() == nullptr)
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    {
+      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+      setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+    }
   // PETSc would take our options for its own and print its own help.
   int  no_options = 1;
   auto blocked    = std::make_unique<BlockedSignals>(); // for the threads of MPI

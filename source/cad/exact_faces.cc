@@ -196,16 +196,32 @@ std::optional<geometry::KnownSurface<3>> known_surface(const BRepAdaptor_Surface
     }
 }
 
-Face<3> exact_face(const TopoDS_Face &face)
+template <int dim>
+using Projections = std::vector<std::shared_ptr<geometry::PartProjection<dim>>>;
+
+/// Add a shape to the projections and return its projection.
+template <int dim>
+std::shared_ptr<const geometry::Projection<dim>>
+numbered(std::shared_ptr<const geometry::Projection<dim>> shape, Projections<dim> &projections)
+{
+  projections.push_back(std::make_shared<geometry::PartProjection<dim>>());
+  projections.back()->number = projections.size() - 1;
+  projections.back()->shape  = std::move(shape);
+  return projections.back();
+}
+
+Face<3> exact_face(const TopoDS_Face &face, Projections<3> &projections)
 {
   const BRepAdaptor_Surface adaptor(face);
   if (adaptor.GetType() == GeomAbs_Plane)
     return {clean_normal<3>(point_of<3>(adaptor.Plane().Axis().Direction())), {}};
   const auto known = known_surface(adaptor);
-  return {{}, known, known ? nullptr : std::make_shared<SurfaceProjection>(face)};
+  if (known)
+    return {{}, known};
+  return {{}, {}, numbered<3>(std::make_shared<SurfaceProjection>(face), projections)};
 }
 
-Face<2> exact_face(const TopoDS_Edge &edge)
+Face<2> exact_face(const TopoDS_Edge &edge, Projections<2> &projections)
 {
   const BRepAdaptor_Curve adaptor(edge);
   if (adaptor.GetType() == GeomAbs_Line)
@@ -220,14 +236,14 @@ Face<2> exact_face(const TopoDS_Edge &edge)
       known->centre = point_of<2>(adaptor.Circle().Location());
       known->radius = adaptor.Circle().Radius();
     }
-  return {{}, known, std::make_shared<OnCurve<2>>(edge)};
+  return {{}, known, numbered<2>(std::make_shared<OnCurve<2>>(edge), projections)};
 }
 
 /// The curves between two faces, by the pair of their indices.
-using Curves =
-  std::map<std::pair<unsigned int, unsigned int>, std::vector<std::shared_ptr<const OnCurve<3>>>>;
+using Curves = std::map<std::pair<unsigned int, unsigned int>,
+                        std::vector<std::shared_ptr<const geometry::Projection<3>>>>;
 
-Curves curves_between(const Part &part)
+Curves curves_between(const Part &part, Projections<3> &projections)
 {
   TopTools_IndexedMapOfShape                faces;
   TopTools_IndexedDataMapOfShapeListOfShape edges;
@@ -241,7 +257,8 @@ Curves curves_between(const Part &part)
         continue;
       const unsigned int a = faces.FindIndex(edges(e).First()) - 1;
       const unsigned int b = faces.FindIndex(edges(e).Last()) - 1;
-      result[{std::min(a, b), std::max(a, b)}].push_back(std::make_shared<OnCurve<3>>(edge));
+      result[{std::min(a, b), std::max(a, b)}].push_back(
+        numbered<3>(std::make_shared<OnCurve<3>>(edge), projections));
     }
   return result;
 }
@@ -252,7 +269,7 @@ mesh_file::ExactFaces<2> exact_faces(const Part &part)
 {
   mesh_file::ExactFaces<2> result;
   for (const auto &face : part.faces())
-    result.faces.push_back(exact_face(TopoDS::Edge(face)));
+    result.faces.push_back(exact_face(TopoDS::Edge(face), result.projections));
   result.curve = [](unsigned int, unsigned int, const dealii::Point<2> &) { return nullptr; };
   return result;
 }
@@ -262,24 +279,25 @@ mesh_file::ExactFaces<3> exact_faces(const Part &part)
 {
   mesh_file::ExactFaces<3> result;
   for (const auto &face : part.faces())
-    result.faces.push_back(exact_face(TopoDS::Face(face)));
-  result.curve = [curves = curves_between(part)](const unsigned int a, const unsigned int b,
-                                                 const dealii::Point<3> &middle) {
-    mesh_file::ExactFaces<3>::Projection closest;
-    double                               least = HUGE_VAL;
-    const auto                           found = curves.find({std::min(a, b), std::max(a, b)});
-    if (found != curves.end())
-      for (const auto &curve : found->second)
-        {
-          const double distance = middle.distance(curve->project(middle));
-          if (distance < least)
-            {
-              least   = distance;
-              closest = curve;
-            }
-        }
-    return closest;
-  };
+    result.faces.push_back(exact_face(TopoDS::Face(face), result.projections));
+  result.curve =
+    [curves = curves_between(part, result.projections)](const unsigned int a, const unsigned int b,
+                                                        const dealii::Point<3> &middle) {
+      mesh_file::ExactFaces<3>::Projection closest;
+      double                               least = HUGE_VAL;
+      const auto                           found = curves.find({std::min(a, b), std::max(a, b)});
+      if (found != curves.end())
+        for (const auto &curve : found->second)
+          {
+            const double distance = middle.distance(curve->project(middle));
+            if (distance < least)
+              {
+                least   = distance;
+                closest = curve;
+              }
+          }
+      return closest;
+    };
   return result;
 }
 } // namespace snug::cad

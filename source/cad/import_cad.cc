@@ -20,19 +20,13 @@
 
 namespace snug::cad {
 namespace {
-/// This struct stores the data that the first rank sends to all ranks.
+/// This struct stores the part and its mesh.
 struct MeshedPart
 {
   std::string                         brep, mesh;
   std::vector<std::string>            boundaries; ///< of the faces
   std::vector<std::string>            table;      ///< of the faces, see table_of()
   std::map<std::string, unsigned int> of_group;   ///< group of the mesh -> face
-
-  template <class Archive>
-  void serialize(Archive &archive, const unsigned int /*version*/)
-  {
-    archive & brep & mesh & boundaries & table & of_group;
-  }
 };
 
 /// Run a step of the import. Its time is printed if it takes more than a second.
@@ -171,6 +165,16 @@ MeshedPart meshed(const geometry::BodyMeshParameters &parameters,
   return result;
 }
 
+/// Return the faces of a shape. Shapes of the same text agree to the last digit.
+template <int dim>
+mesh_file::ExactFaces<dim> exact_faces_of(const std::string &brep)
+{
+  Part part;
+  part.shape = from_brep(brep);
+  part.dim   = dim;
+  return exact_faces<dim>(part);
+}
+
 /// Return the blocks of the mesh, with the true surfaces of the faces.
 template <int dim>
 std::shared_ptr<geometry::ImportedMesh> blocks_of(const MeshedPart            &meshed,
@@ -183,17 +187,38 @@ std::shared_ptr<geometry::ImportedMesh> blocks_of(const MeshedPart            &m
   parameters.boundary_numbers.clear();
   for (const auto &[group, face] : meshed.of_group)
     parameters.boundary_numbers[group] = meshed.boundaries[face];
-  // All ranks read the same text, so that their shapes agree to the last digit.
-  Part part;
-  part.shape          = from_brep(meshed.brep);
-  part.dim            = dim;
-  auto exact          = exact_faces<dim>(part);
+  auto exact          = exact_faces_of<dim>(meshed.brep);
   exact.face_of_group = meshed.of_group;
   auto result         = mesh_file::import_mesh<dim>(file, parameters, &exact);
   result->text_hash   = mesh_file::text_hash(meshed.mesh);
   result->faces       = meshed.table;
   result->brep        = meshed.brep;
   result->boundaries  = meshed.boundaries;
+  return result;
+}
+
+/// Return the mesh of the part on rank 0, and without cells on all other ranks. Collective.
+template <int dim>
+std::shared_ptr<const geometry::ImportedMesh>
+import_in(const geometry::BodyMeshParameters &parameters,
+          const std::string                  &stem,
+          RunContext                         &context)
+{
+  std::shared_ptr<const geometry::ImportedMesh> whole;
+  const geometry::ImportedMesh empty = made_on_first_rank(context.communicator(), [&]() {
+    return guarded(parameters, [&]() {
+      const auto part = meshed(parameters, dim, stem, context);
+      whole           = timed(context, parameters.file, "curved cells",
+                              [&]() { return blocks_of<dim>(part, parameters); });
+      return *whole->without_cells();
+    });
+  });
+  if (whole)
+    return whole;
+  auto mesh             = *empty.blocks<dim>();
+  mesh.projections      = exact_faces_of<dim>(empty.brep).projections;
+  auto result           = std::make_shared<geometry::ImportedMesh>(empty);
+  result->blocks<dim>() = std::make_shared<const geometry::BlockMesh<dim>>(std::move(mesh));
   return result;
 }
 } // namespace
@@ -210,13 +235,7 @@ import_cad(const geometry::BodyMeshParameters &parameters,
            const std::string                  &stem,
            RunContext                         &context)
 {
-  const auto result = made_on_first_rank(context.communicator(), [&]() {
-    return guarded(parameters, [&]() { return meshed(parameters, dim, stem, context); });
-  });
-  return guarded(parameters, [&]() {
-    return timed(context, parameters.file, "curved cells", [&]() {
-      return dim == 2 ? blocks_of<2>(result, parameters) : blocks_of<3>(result, parameters);
-    });
-  });
+  return dim == 2 ? import_in<2>(parameters, stem, context)
+                  : import_in<3>(parameters, stem, context);
 }
 } // namespace snug::cad

@@ -55,6 +55,7 @@ BlockMesh<dim> excerpt(const BlockMesh<dim> &mesh, const std::vector<unsigned in
   const auto     bounds = bounds_of(mesh);
   result.boundary_names = mesh.boundary_names;
   result.region_names   = mesh.region_names;
+  result.projections    = mesh.projections;
   result.known_surfaces = mesh.known_surfaces;
   result.shapes         = mesh.shapes;
   result.cells          = mesh.cells;

@@ -4,6 +4,11 @@
 #include <snug/geometry/imported_mesh.h>
 
 namespace snug::geometry {
+std::shared_ptr<const ImportedMesh> ImportedMesh::without_cells() const
+{
+  return flat ? with_blocks(excerpt(*flat, {})) : with_blocks(excerpt(*solid, {}));
+}
+
 template <int dim>
 std::unique_ptr<BodyGeometry<dim>> make_imported(const BodyMeshParameters &parameters)
 {

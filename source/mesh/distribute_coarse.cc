@@ -192,7 +192,7 @@ std::vector<std::vector<unsigned int>> relevant_cells(const WholeMesh<dim> &whol
   return result;
 }
 
-/// What a rank gets from rank 0.
+/// Data that rank 0 sends to a rank.
 template <int dim>
 struct Share
 {

@@ -45,6 +45,8 @@ public:
         mesh  = geometry::BlockMesh<dim>();
         add_blocks();
       }
+    if (exact != nullptr)
+      mesh.projections = exact->projections;
     collect_faces();
     name_boundaries();
     curve_boundaries();
@@ -256,14 +258,6 @@ private:
   }
 };
 
-/// Return a mesh without cells.
-std::shared_ptr<const geometry::ImportedMesh> without_cells(const geometry::ImportedMesh &mesh)
-{
-  if (mesh.flat)
-    return mesh.with_blocks(geometry::excerpt(*mesh.flat, {}));
-  return mesh.with_blocks(geometry::excerpt(*mesh.solid, {}));
-}
-
 /// Run @p work, and complete the message of an error of the file by the entry of the file.
 template <typename Work>
 auto with_entry(const geometry::BodyMeshParameters &parameters, const Work &work)
@@ -329,7 +323,7 @@ import_mesh(const MPI_Comm                      communicator,
   std::shared_ptr<const geometry::ImportedMesh> whole;
   const auto                                    empty = made_on_first_rank(communicator, [&]() {
     whole = import_mesh(text(), parameters, dim);
-    return *without_cells(*whole);
+    return *whole->without_cells();
   });
   return whole ? whole : std::make_shared<const geometry::ImportedMesh>(empty);
 }

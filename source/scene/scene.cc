@@ -1,3 +1,4 @@
+#include <snug/geometry/imported_mesh.h>
 #include <snug/response/response.h>
 #include <snug/scene/scene.h>
 
@@ -8,8 +9,11 @@
 namespace snug::scene {
 namespace {
 template <int dim>
-std::vector<std::string> boundary_names_in(const geometry::BodyMeshParameters &parameters)
+std::vector<std::string> boundary_names_in(geometry::BodyMeshParameters parameters)
 {
+  // Many checks need the names, and geometries of many cells take long.
+  if (parameters.imported)
+    parameters.imported = parameters.imported->without_cells();
   return geometry::make_geometry<dim>(parameters)->boundary_names();
 }
 } // namespace

@@ -9,10 +9,10 @@ namespace snug::cad {
 bool is_cad_file(const std::string &path);
 
 /**
- * Return the mesh of a part of a CAD file. The faces of the part are the surfaces of its
- * boundaries. The files of Gmsh are @p stem, which is a path, with endings. The first rank reads
- * the file and runs the program gmsh. Steps of more than a second are printed in the log.
- * Collective.
+ * Return the mesh of a part of a CAD file, without cells on all ranks but rank 0. The faces of the
+ * part are the surfaces of its boundaries. The files of Gmsh are @p stem, which is a path, with
+ * endings. The first rank reads the file and runs the program gmsh. Steps of more than a second are
+ * printed in the log. Collective.
  *
  * @throws InputError on all ranks, with the entry where it concerns one.
  */

@@ -41,11 +41,11 @@ struct BlockMesh
     std::shared_ptr<Patch<dim>>   patch;
     std::vector<dealii::Point<2>> at;
 
-    /// Patches on the surfaces of CAD files cannot be sent.
     template <class Archive>
     void serialize(Archive &archive, const unsigned int /*version*/)
     {
       archive.template register_type<KnownSurface<dim>>();
+      archive.template register_type<PartProjection<dim>>();
       archive.template register_type<Curve<dim>>();
       if constexpr (dim == 3)
         archive.template register_type<FacetPatch>();
@@ -78,6 +78,8 @@ struct BlockMesh
   /// edges, and in 3D boundary faces, with patches of their own; the edges of a face lie on the
   /// patch of the face
   std::map<Face, Piece> pieces;
+  /// curves and surfaces of the CAD part, in the order of their numbers
+  std::vector<std::shared_ptr<PartProjection<dim>>> projections;
   /// surfaces of known shape on which some boundary faces lie up to round-off
   std::vector<KnownSurface<dim>> known_surfaces;
   std::map<Face, unsigned int>   known; ///< indices into known_surfaces
@@ -94,12 +96,13 @@ struct BlockMesh
 
   bool is_excerpt() const { return place.n_blocks > 0; }
 
-  /// Send a mesh without manifolds, that is any mesh but those of round bodies.
+  /// Send a mesh without manifolds, that is any mesh but those of round bodies. The projections
+  /// come without their shapes, see ImportedMesh::with_blocks().
   template <class Archive>
   void serialize(Archive &archive, const unsigned int /*version*/)
   {
     archive & vertices & blocks & regions & parts & boundaries & boundary_names & region_names;
-    archive & pieces & known_surfaces & known & shapes & cells & place;
+    archive & projections & pieces & known_surfaces & known & shapes & cells & place;
   }
 };
 

@@ -9,8 +9,8 @@
 #include <cstdint>
 
 namespace snug::geometry {
-/// The mesh of a file as the cells of one body. Rank 0 reads mesh files, and all other ranks have
-/// an excerpt without cells, until they get the cells that they need, see Forest and BodyMesh.
+/// The mesh of a file as the cells of one body. Rank 0 reads the file, and all other ranks have an
+/// excerpt without cells, until they get the cells that they need, see Forest and BodyMesh.
 struct ImportedMesh
 {
   std::shared_ptr<const BlockMesh<2>> flat;                  ///< mesh in 2D, otherwise null
@@ -38,14 +38,19 @@ struct ImportedMesh
     return const_cast<ImportedMesh *>(this)->blocks<dim>();
   }
 
-  /// Return the mesh with other cells and all else as it is.
+  /// Return the mesh with other cells, which may come from another rank, and all else as it is.
   template <int dim>
   std::shared_ptr<const ImportedMesh> with_blocks(BlockMesh<dim> mesh) const
   {
-    auto result           = std::make_shared<ImportedMesh>(*this);
+    auto result = std::make_shared<ImportedMesh>(*this);
+    for (unsigned int i = 0; i < mesh.projections.size(); ++i)
+      mesh.projections[i]->shape = blocks<dim>()->projections[i]->shape;
     result->blocks<dim>() = std::make_shared<const BlockMesh<dim>>(std::move(mesh));
     return result;
   }
+
+  /// Return the mesh without cells, with the names, surfaces and bounds of the body.
+  std::shared_ptr<const ImportedMesh> without_cells() const;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int /*version*/)

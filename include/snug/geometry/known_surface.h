@@ -6,6 +6,7 @@
 
 #include <boost/serialization/void_cast.hpp>
 
+#include <memory>
 #include <string>
 
 namespace snug::geometry {
@@ -34,6 +35,28 @@ public:
 
   /// Return the point of the curve or surface that is closest to @p x.
   virtual dealii::Point<dim> project(const dealii::Point<dim> &x) const = 0;
+};
+
+/// This class is a curve or a surface of a CAD part. Ranks send its number, because every rank can
+/// make the shape from the part.
+template <int dim>
+class PartProjection : public Projection<dim>
+{
+public:
+  unsigned int                           number = 0; ///< among the curves and surfaces of the part
+  std::shared_ptr<const Projection<dim>> shape  = {};
+
+  dealii::Point<dim> project(const dealii::Point<dim> &x) const override
+  {
+    return shape->project(x);
+  }
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int /*version*/)
+  {
+    boost::serialization::void_cast_register<PartProjection, Projection<dim>>();
+    archive & number;
+  }
 };
 
 /**

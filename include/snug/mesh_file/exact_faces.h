@@ -31,6 +31,8 @@ struct ExactFaces
   };
 
   std::vector<Face> faces;
+  /// all projections that faces and curves have, in the order of their numbers
+  std::vector<std::shared_ptr<geometry::PartProjection<dim>>> projections;
   /// group of elements of the mesh file -> index of its face
   std::map<std::string, unsigned int> face_of_group;
   /// function that returns the curve between two faces that is closest to a point; null if there is

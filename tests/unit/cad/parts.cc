@@ -215,6 +215,9 @@ TEST(Cad, elements_are_small_near_a_face_and_grow)
   std::map<std::string, double> n_faces;
   for (const auto &[face, boundary] : mesh.boundaries)
     n_faces[mesh.boundary_names[boundary]] += 1.;
+  // Other ranks than 0 have no faces.
+  for (const auto &name : mesh.boundary_names)
+    n_faces[name] = dealii::Utilities::MPI::sum(n_faces[name], MPI_COMM_WORLD);
   const double small = 0.5 / n_faces.at("face-1"), large = 0.5 / n_faces.at("face-2");
   EXPECT_NEAR(std::sqrt(small * 12. / std::sqrt(3.)), 0.1, 0.02);
   EXPECT_NEAR(std::sqrt(large * 12. / std::sqrt(3.)), 0.35, 0.1);
@@ -225,7 +228,10 @@ TEST(Cad, halved_elements_have_half_of_the_size)
 {
   auto block         = part("pins.step", 0.4);
   block.solid        = 2;
-  const auto n_cells = [&]() { return 1. * imported(block, 3)->solid->blocks.size(); };
+  const auto n_cells = [&]() {
+    return dealii::Utilities::MPI::sum(1. * imported(block, 3)->solid->blocks.size(),
+                                       MPI_COMM_WORLD);
+  };
   // The edges of the box of the solid: x 2 to 3, y 0 to 1, z 0 to 0.5.
   const dealii::Point<3> corner(2., 0., 0.);
   const auto             n_near = [&]() {
@@ -233,7 +239,7 @@ TEST(Cad, halved_elements_have_half_of_the_size)
     double     n    = 0.;
     for (const auto &cell : mesh->solid->blocks)
       n += mesh->solid->vertices[cell.front()].distance(corner) < 0.2;
-    return n;
+    return dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD);
   };
   const double all = n_cells(), near = n_near();
   block.halved = {{corner}, {corner}};
