@@ -92,6 +92,7 @@ void Forest<dim>::make_geometries()
     if (lacks[body] > 0)
       lacking.push_back(body);
   shapes = std::move(made);
+  coarse_mesh.reset(); // it refers to the geometries
 }
 
 /// Create the triangulation of p4est, which needs the coarse cells of all bodies on every rank.

@@ -71,24 +71,24 @@ void expect_same_cell(const mesh::BodyMesh<dim> &mesh,
     }
 }
 
-/// Both meshes have the same cells, boundaries, surfaces and nodes, in the same parts. The parts of
-/// the mesh on all ranks are made as if there were few ranks.
+/// Both forests have the same cells, boundaries, surfaces and nodes, in the same parts. The parts
+/// of the mesh on all ranks are made as if there were few ranks.
 template <int dim>
-void expect_same(const std::vector<Parameters> &shared_bodies,
-                 const std::vector<Parameters> &whole,
-                 const unsigned int             degree)
+void expect_same(const mesh::Forest<dim> &of_ranks,
+                 const mesh::Forest<dim> &of_one,
+                 const unsigned int       degree)
 {
   mesh::TearingParameters tearing;
   tearing.subdomains                = 5;
   tearing.at_least_ranks            = false;
   const auto                natural = mesh::Idealization::natural(dim);
-  const mesh::BodyMesh<dim> alone(MPI_COMM_SELF, whole, degree, natural, tearing);
-  const mesh::BodyMesh<dim> mesh(MPI_COMM_WORLD, shared_bodies, degree, natural, tearing);
+  const mesh::BodyMesh<dim> alone(of_one, degree, natural, tearing);
+  const mesh::BodyMesh<dim> mesh(of_ranks, degree, natural, tearing);
   // Other ranks have the cells of files as far as they need them. p4est needs all of them.
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  for (unsigned int body = 0; body < whole.size(); ++body)
+  for (unsigned int body = 0; body < mesh.n_bodies(); ++body)
     EXPECT_EQ(mesh.geometry(body).has_all_cells(),
-              is_first || whole[body].refinements > 0 || !whole[body].imported);
+              is_first || of_one.triangulation() != nullptr || !of_one.bodies()[body].imported);
   EXPECT_EQ(mesh.n_global_cells(), alone.n_global_cells());
   EXPECT_EQ(mesh.n_global_free_nodes(), alone.n_global_free_nodes());
   std::map<dealii::CellId, unsigned int>                          number;
@@ -112,6 +112,15 @@ void expect_same(const std::vector<Parameters> &shared_bodies,
     }
   const auto n_faces = mesh.boundary_faces().size();
   EXPECT_EQ(dealii::Utilities::MPI::sum(n_faces, MPI_COMM_WORLD), alone.boundary_faces().size());
+}
+
+template <int dim>
+void expect_same(const std::vector<Parameters> &shared_bodies,
+                 const std::vector<Parameters> &whole,
+                 const unsigned int             degree)
+{
+  expect_same(mesh::Forest<dim>(MPI_COMM_WORLD, shared_bodies),
+              mesh::Forest<dim>(MPI_COMM_SELF, whole), degree);
 }
 
 template <int dim>
@@ -175,6 +184,23 @@ TEST(FilesOnRanks, MayStandBesideOtherBodies)
     expect_same<3>({box, shared(file_body(), text, 3), ring, shared(file_body(), text, 3)},
                    {box, imported(file_body(), text, 3), ring, imported(file_body(), text, 3)},
                    degree);
+}
+
+/// The coarse cells come to all ranks when a cell is refined, after a mesh without refined cells.
+TEST(FilesOnRanks, MayBeRefinedLater)
+{
+  const auto      text = contents("tets-4-binary.msh");
+  mesh::Forest<3> of_ranks(MPI_COMM_WORLD, {shared(file_body(), text, 3)}),
+    of_one(MPI_COMM_SELF, {imported(file_body(), text, 3)});
+  for (const unsigned int n_refined : {0, 1, 3})
+    {
+      std::set<dealii::CellId> cells;
+      for (unsigned int cell = 0; cell < n_refined; ++cell)
+        cells.insert(dealii::CellId(7 * cell, {}));
+      of_ranks.refine(cells);
+      of_one.refine(cells);
+      expect_same<3>(of_ranks, of_one, 2);
+    }
 }
 
 TEST(FilesOnRanks, FailTogether)
