@@ -80,7 +80,7 @@ private:
   MPI_Comm                                  comm;
   std::vector<geometry::BodyMeshParameters> parameters;
   std::shared_ptr<const Geometries<dim>>    shapes;
-  std::vector<unsigned int>                 lacking; ///< bodies on some rank
+  std::vector<unsigned int>                 lacking; ///< bodies whose cells only rank 0 has
   geometry::CoarseCells<dim>                cell_places;
   mutable std::unique_ptr<CoarseMesh<dim>>  coarse_mesh;
   std::unique_ptr<Triangulation>            refined;
