@@ -87,6 +87,8 @@ Counts count(const scene::Scene &scene, const mesh::BodyMesh<dim> &mesh)
       result.coarse_cells += mesh.geometry(b).n_coarse_cells();
       result.has_layers = result.has_layers && has_layers;
     }
+  if (result.coarse_cells == result.cells)
+    result.coarse_cells = 0.; // Only p4est needs them, which refines cells.
   return result;
 }
 
@@ -270,7 +272,6 @@ Cost estimate_cost(const scene::Scene &scene,
   const double     mesh =
     of.node[scene.degree - 1] * counts.nodes +
     counts.subdomains * (of.subdomain_memory + of.entries * std::pow(n, of.apply_power));
-  // every rank has the coarse cells
   const double coarse = ranks == 1 ? 0. : 1e-3 * counts.coarse_cells;
   cost.memory_largest = base_memory + mesh / ranks + coarse;
   cost.memory_total   = ranks * cost.memory_largest;

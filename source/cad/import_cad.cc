@@ -213,10 +213,14 @@ import_in(const geometry::BodyMeshParameters &parameters,
       return *whole->without_cells();
     });
   });
+  auto                         mesh  = *empty.blocks<dim>();
+  throw_collectively(context.communicator(), [&]() {
+    if (!whole)
+      guarded(parameters,
+              [&]() { mesh.projections = exact_faces_of<dim>(empty.brep).projections; });
+  });
   if (whole)
     return whole;
-  auto mesh             = *empty.blocks<dim>();
-  mesh.projections      = exact_faces_of<dim>(empty.brep).projections;
   auto result           = std::make_shared<geometry::ImportedMesh>(empty);
   result->blocks<dim>() = std::make_shared<const geometry::BlockMesh<dim>>(std::move(mesh));
   return result;

@@ -1,10 +1,11 @@
+#include <snug/base/assertions.h>
 #include <snug/geometry/block_geometry.h>
 
 #include <algorithm>
 
 namespace snug::geometry {
 namespace {
-/// Numbers of some vertices of a mesh, in the order of the mesh.
+/// This class gives new numbers to some vertices of a mesh, in the order of the mesh.
 class NewNumbers
 {
 public:
@@ -21,12 +22,14 @@ public:
   /// Replace vertices by their new numbers. Return whether all of them have one.
   bool replace(Vertices &in) const
   {
-    return std::all_of(in.begin(), in.end(), [&](unsigned int &vertex) {
-      const auto found = std::lower_bound(vertices.begin(), vertices.end(), vertex);
-      const bool has   = found != vertices.end() && *found == vertex;
-      vertex           = found - vertices.begin();
-      return has;
-    });
+    for (unsigned int &vertex : in)
+      {
+        const auto found = std::lower_bound(vertices.begin(), vertices.end(), vertex);
+        if (found == vertices.end() || *found != vertex)
+          return false;
+        vertex = found - vertices.begin();
+      }
+    return true;
   }
 
   /// Return the entries of @p faces whose vertices all have a new number.
@@ -51,15 +54,20 @@ private:
 template <int dim>
 BlockMesh<dim> excerpt(const BlockMesh<dim> &mesh, const std::vector<unsigned int> &blocks)
 {
+  SNUG_ASSERT(blocks.empty() || !mesh.is_excerpt(), "the mesh lacks blocks");
   BlockMesh<dim> result;
-  const auto     bounds = bounds_of(mesh);
   result.boundary_names = mesh.boundary_names;
   result.region_names   = mesh.region_names;
   result.projections    = mesh.projections;
   result.known_surfaces = mesh.known_surfaces;
   result.shapes         = mesh.shapes;
   result.cells          = mesh.cells;
-  result.place          = {blocks, static_cast<unsigned int>(mesh.blocks.size()), bounds};
+  result.place          = mesh.is_excerpt()
+                            ? mesh.place
+                            : typename BlockMesh<dim>::Excerpt{{},
+                                                      static_cast<unsigned int>(mesh.blocks.size()),
+                                                      bounds_of(mesh)};
+  result.place.numbers  = blocks;
   for (const unsigned int block : blocks)
     {
       result.blocks.push_back(mesh.blocks[block]);

@@ -102,6 +102,7 @@ template <int dim>
 typename BodyGeometry<dim>::CoarseMesh BlockGeometry<dim>::coarse_mesh() const
 {
   using Info = dealii::GeometryInfo<dim>;
+  SNUG_ASSERT(this->has_all_cells(), "the mesh lacks blocks");
   typename BodyGeometry<dim>::CoarseMesh result;
   std::map<GridPoint, unsigned int>      numbers;
   const unsigned int                     none = static_cast<unsigned int>(-1);

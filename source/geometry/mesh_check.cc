@@ -10,24 +10,18 @@ namespace {
 /// Maximum number of cells of a body, whose nodes deal.II and p4est number by 32 bits.
 const double most_cells = 1e9;
 
-/// Check that no rank has too many coarse cells. A grid without refinement is distributed to all
-/// ranks at once. All other coarse meshes are on rank 0, and those of refined bodies on every rank.
-void require_coarse(const SectionCheck       &section,
-                    const BodyMeshParameters &mesh,
-                    const double              cells,
-                    const unsigned int        n_ranks,
-                    const std::string        &entry,
-                    const std::string        &value)
+/// Check that no rank has too many coarse cells, of which @p n_ranks ranks have a share each.
+void require_coarse(const SectionCheck &section,
+                    const double        cells,
+                    const unsigned int  n_ranks,
+                    const std::string  &entry,
+                    const std::string  &value)
 {
   const double most_of_rank = 4e6;
-  const bool   is_grid      = mesh.source == Source::box || mesh.source == Source::ring;
-  const bool   refines      = mesh.refinements > 0 || mesh.local_refinements > 0;
-  if (is_grid && !refines)
-    section.require(cells <= std::min(n_ranks * most_of_rank, most_cells), entry, value,
-                    "must give at most 4e6 cells per MPI rank and 1e9 cells");
-  else
-    section.require(cells <= most_of_rank, entry, value,
-                    "must give at most 4e6 cells before refinement");
+  section.require(cells <= std::min(n_ranks * most_of_rank, most_cells), entry, value,
+                  "must give at most 4e6 cells per MPI rank if all bodies are boxes or rings "
+                  "without refined cells, and at most 4e6 cells otherwise; 'Refinements' make more "
+                  "cells");
 }
 
 void check_box(const SectionCheck       &section,
@@ -40,7 +34,7 @@ void check_box(const SectionCheck       &section,
   double cells = 1.;
   for (const unsigned int n : mesh.cells)
     cells *= n;
-  require_coarse(section, mesh, cells, n_ranks, "Box cells", to_text(mesh.cells));
+  require_coarse(section, cells, n_ranks, "Box cells", to_text(mesh.cells));
 }
 
 void check_size(const SectionCheck       &section,
@@ -49,7 +43,7 @@ void check_size(const SectionCheck       &section,
                 const unsigned int        n_ranks)
 {
   const bool file = mesh.source == Source::file || mesh.source == Source::cad;
-  require_coarse(section, mesh, cells, n_ranks, file ? "File" : "Cells",
+  require_coarse(section, cells, n_ranks, file ? "File" : "Cells",
                  file ? mesh.file : to_text(mesh.round_cells));
   section.require(mesh.refinements < 30 &&
                     cells * std::pow(2., section.dimension * mesh.refinements) <= most_cells,

@@ -101,8 +101,10 @@ void Forest<dim>::create_triangulation()
 {
   for (const unsigned int body : lacking)
     {
-      auto &imported = parameters[body].imported;
-      imported       = imported->with_blocks(broadcast(comm, *imported->template blocks<dim>()));
+      auto      &imported = parameters[body].imported;
+      const auto mesh     = broadcast(comm, imported->template blocks<dim>());
+      if (mesh != imported->template blocks<dim>()) // not on rank 0
+        imported = imported->with_blocks(*mesh);
     }
   if (!lacking.empty())
     make_geometries();

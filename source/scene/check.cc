@@ -210,6 +210,19 @@ void check_names(const Scene &scene, const Origins &origins)
     check_list_of_names("Shapes", names_of(scene.shapes), origins);
 }
 
+namespace {
+/// Return whether every rank makes its own cells only: all bodies are grids without refined cells.
+bool are_cells_local(const Scene &scene)
+{
+  using geometry::Source;
+  return scene.tearing.method != "METIS" && scene.accuracy.targets.empty() &&
+         std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) {
+           return (body.mesh.source == Source::box || body.mesh.source == Source::ring) &&
+                  body.mesh.refinements == 0 && body.mesh.local_refinements == 0;
+         });
+}
+} // namespace
+
 void check(const Scene &scene, const Origins &origins, const unsigned int n_ranks)
 {
   const auto section = [&](const std::string &name) {
@@ -221,7 +234,7 @@ void check(const Scene &scene, const Origins &origins, const unsigned int n_rank
   for (const auto &material : scene.materials)
     material.material.check(section(material.section()));
   for (const auto &body : scene.bodies)
-    check_body(scene, section(body.section()), body, n_ranks);
+    check_body(scene, section(body.section()), body, are_cells_local(scene) ? n_ranks : 1);
   check_all_loads(scene, origins);
   check_export(scene, origins);
   check_contact(scene, origins);

@@ -11,7 +11,7 @@ namespace snug::advice {
 struct Counts
 {
   double cells = 0., nodes = 0.;  ///< nodes without hanging nodes
-  double coarse_cells       = 0.; ///< which every rank has
+  double coarse_cells       = 0.; ///< of refined meshes, which every rank has
   double contact_rows       = 0.; ///< at most: nodes of the slave sides
   double subdomains         = 0.;
   double subdomains_by_size = 0.;   ///< number that 'Subdomains' = auto makes on few ranks

@@ -1,6 +1,7 @@
 #ifndef snug_geometry_block_geometry_h
 #define snug_geometry_block_geometry_h
 
+#include <snug/base/assertions.h>
 #include <snug/geometry/block_mesh.h>
 #include <snug/geometry/body_geometry.h>
 #include <snug/geometry/cell_numbering.h>
@@ -95,11 +96,13 @@ private:
   /// Return the index of the block of a coarse cell, which must be on this rank.
   unsigned int block_of(const unsigned int coarse_cell) const
   {
-    const unsigned int block   = coarse_cell / cells_per_block();
-    const auto        &numbers = mesh->place.numbers;
-    return mesh->is_excerpt()
-             ? std::lower_bound(numbers.begin(), numbers.end(), block) - numbers.begin()
-             : block;
+    const unsigned int block = coarse_cell / cells_per_block();
+    if (!mesh->is_excerpt())
+      return block;
+    const auto &numbers = mesh->place.numbers;
+    const auto  found   = std::lower_bound(numbers.begin(), numbers.end(), block);
+    SNUG_ASSERT(found != numbers.end() && *found == block, "the cell is on another rank");
+    return found - numbers.begin();
   }
 
   Point block_position(unsigned int block, const Point &u) const;

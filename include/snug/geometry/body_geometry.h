@@ -226,7 +226,7 @@ public:
   virtual CoarseMesh coarse_mesh() const = 0;
 
   /// Return whether all coarse cells are on this rank. If not, functions of a cell must only be
-  /// called for cells on this rank. All other functions return the same.
+  /// called for cells on this rank. All other functions return the values of the whole mesh.
   virtual bool has_all_cells() const { return true; }
 
   /// Return the number of coarse cells, on all ranks. The number may exceed the number of cells of

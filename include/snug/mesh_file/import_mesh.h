@@ -28,8 +28,8 @@ import_mesh(const std::string                  &text,
             const geometry::BodyMeshParameters &parameters,
             unsigned int                        dim);
 
-/// Return the same on rank 0 for the file whose content @p text returns there, and without cells on
-/// all other ranks. Collective.
+/// Return the mesh of a file on rank 0, where @p text returns the content of the file, and a mesh
+/// without cells on all other ranks. Collective.
 std::shared_ptr<const geometry::ImportedMesh>
 import_mesh(MPI_Comm                            communicator,
             const std::function<std::string()> &text,

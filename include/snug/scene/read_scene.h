@@ -38,7 +38,7 @@ std::string read_text(const std::string &file, TextSource source = TextSource::r
 /**
  * Read and check a scene and the mesh files and CAD files named in the scene. Empty lists that have
  * a default (corner, size, grading, body force, initial design) are filled in. Equal sources give
- * equal scenes and equal errors. Of mesh files, only rank 0 has the cells, see ImportedMesh.
+ * equal scenes and equal errors. Only rank 0 has the cells of files, see ImportedMesh.
  * Collective on the ranks of the run.
  *
  * @throws InputError, one line with file, line, entry, value and the allowed values; see check()
