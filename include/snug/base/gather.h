@@ -54,7 +54,8 @@ std::vector<T> gather(MPI_Comm communicator, const T &mine, const unsigned int r
   return gather(communicator, mine, root, false);
 }
 
-/// Return the object of rank 0 on every rank. Collective.
+/// Send the object of rank 0 to all ranks and return it. The packed object has less than 2 GB.
+/// Collective.
 template <typename T>
 T broadcast(MPI_Comm communicator, const T &object)
 {

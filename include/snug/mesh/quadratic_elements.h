@@ -49,7 +49,7 @@ public:
   QuadraticElements() = default;
 
   /// Find the elements of all bodies. Without refined cells, rank 0 finds them, and all other ranks
-  /// get theirs by of_cells(). Collective.
+  /// get the elements of their cells by of_cells(). Collective.
   explicit QuadraticElements(const Forest<dim> &forest);
 
   /// Return the elements of some coarse cells, given in ascending order.
