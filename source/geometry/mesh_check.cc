@@ -69,7 +69,7 @@ void check_radius(const SectionCheck &section, const BodyMeshParameters &mesh, c
 template <int dim>
 double least_radius(const BodyGeometry<dim> &geometry, const bool all)
 {
-  const double       some  = 1e5;
+  const double       some  = 4e6;
   const double       n     = geometry.n_coarse_cells();
   const unsigned int step  = all ? 1 : static_cast<unsigned int>(std::ceil(n / some));
   double             least = 0., largest = 0.;
